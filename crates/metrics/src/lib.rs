@@ -1,1 +1,6 @@
-//! stub
+//! Error, banding, noise and swimming: pure functions over images. Knows neither scene files nor
+//! GPU nor disk.
+
+mod score;
+
+pub use score::Score;

@@ -1,1 +1,84 @@
-//! stub
+//! What is seen: surfaces, area lights and camera paths, from `scene.toml`, OBJ and glTF files or
+//! from generators.
+//!
+//! A leaf crate. It knows no renderer, no image and no score. Space is glTF's: right-handed, y up,
+//! metres, a camera looks along its -z.
+
+mod camera;
+mod light;
+
+pub use camera::{Camera, CameraPath, PathFrame};
+pub use light::AreaLight;
+
+use glam::{DVec3, Vec3};
+
+/// Everything a picture is made of. Coordinates are metres after recentring by `origin`.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Short name: the folder's or the model file's stem.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// All surfaces, in world space.
+    pub geometry: Geometry,
+    /// Diffuse materials; never empty.
+    pub materials: Vec<Material>,
+    /// Area lights; never empty. The first is the one that is scored unless told otherwise.
+    pub lights: Vec<AreaLight>,
+    /// Named camera paths; never empty.
+    pub paths: Vec<CameraPath>,
+    /// What a shadow map must cover.
+    pub shadow_region: ShadowRegion,
+    /// What was subtracted from the file's coordinates (0 unless the scene lies far from its
+    /// origin, where f32 loses millimetres).
+    pub origin: DVec3,
+    /// What the loader changed or dropped, for people to read ("12 degenerate triangles dropped").
+    pub notes: Vec<String>,
+}
+
+/// Triangles in world space, counter-clockwise seen from outside where the file says so; both
+/// sides cast and receive.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Geometry {
+    /// Vertex positions in metres, all finite.
+    pub positions: Vec<Vec3>,
+    /// Indices into `positions`; no triangle is degenerate.
+    pub triangles: Vec<[u32; 3]>,
+    /// Per triangle, an index into the scene's materials.
+    pub material: Vec<u32>,
+}
+
+/// A diffuse surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// As in the file.
+    pub name: String,
+    /// Linear reflectance per colour, 0 to 1.
+    pub albedo: Vec3,
+}
+
+/// The part of the world that a sun's orthographic shadow map covers, and the blocker distance
+/// for which techniques of a fixed kernel are set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadowRegion {
+    /// Centre of the map.
+    pub centre: Vec3,
+    /// Side of the square map in metres.
+    pub width_world: f32,
+    /// Typical distance from blocker to receiver: a light-matched fixed kernel is as wide as the
+    /// penumbra of a blocker at this distance.
+    pub reference_gap_world: f32,
+}
+
+impl Geometry {
+    /// The corners of a triangle.
+    pub fn corners(&self, triangle: usize) -> [Vec3; 3] {
+        self.triangles[triangle].map(|v| self.positions[v as usize])
+    }
+
+    /// Smallest and largest coordinates (zero for an empty geometry).
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let first = self.positions.first().copied().unwrap_or(Vec3::ZERO);
+        self.positions.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p)))
+    }
+}
