@@ -1,1 +1,20 @@
-//! stub
+//! Turns a stored run into pages, and says how a run is stored.
+//!
+//! A run is a folder: [`Scorecard`] (`scorecard.json`) and the planes of its pictures. [`RunWriter`]
+//! fills it while the run goes on; [`write_report`] makes the pages from it, then or at any later
+//! time. Deliberately absent: rendering, measuring, the clock and the network. What is not in the
+//! folder is not on the page.
+
+mod card;
+mod error;
+mod store;
+mod write;
+
+pub use card::{
+    AdapterCard, Calibration, Cost, Direction, Measured, MetricCard, OverallCard, PairedCard, PassCost,
+    Provenance, ResultCard, SCHEMA_VERSION, SceneCard, Scorecard, SettingsCard, TruthCard, VariantCard,
+    WindowCard, scorecard_schema,
+};
+pub use error::ReportError;
+pub use store::{RunWriter, VariantPictures, WindowPictures};
+pub use write::{Layout, Written, write_report};

@@ -1,0 +1,240 @@
+//! The folder of a run: `scorecard.json` and the planes of its pictures.
+//!
+//! Planes are EXR files of 32-bit floats rounded to 11 significant bits (those of a half float):
+//! the zeroed bits compress away, any EXR viewer opens them, and NaN stays NaN.
+
+use crate::error::{ReportError, write_whole};
+use crate::{SCHEMA_VERSION, Scorecard};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use umbrage_frame::{Image, Layer, read_exr, write_exr};
+
+/// What is shown of a window besides its variants. NaN = not counted.
+#[derive(Clone, Debug)]
+pub struct WindowPictures {
+    /// The true unoccluded fraction at each anchor's pixel in the middle frame, 0 to 1.
+    pub truth: Image<f32>,
+    /// The scene as seen, display-linear RGB, 1 = white; optional.
+    pub beauty: Option<Image<[f32; 3]>>,
+}
+
+/// What is shown of a variant in a window, each in the middle frame. NaN = not counted.
+#[derive(Clone, Debug)]
+pub struct VariantPictures {
+    /// The variant's unoccluded fraction, 0 to 1.
+    pub mask: Image<f32>,
+    /// Variant minus truth, -1 to 1.
+    pub error: Image<f32>,
+    /// Root of the moving part per anchor (visibility), from 0.
+    pub swim: Image<f32>,
+}
+
+/// Fills the folder of a run, picture by picture, so that never more than one is in memory.
+#[derive(Debug)]
+pub struct RunWriter {
+    folder: PathBuf,
+    index: PictureIndex,
+}
+
+/// Which pictures are stored, and the ranges that their colours need.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PictureIndex {
+    pub(crate) schema_version: u32,
+    /// Windows that have a truth picture; true when there is a beauty picture too.
+    pub(crate) windows: Vec<(usize, bool)>,
+    pub(crate) variants: Vec<StoredVariant>,
+}
+
+/// A stored variant, with the 99.5th percentiles of |error| and swim.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct StoredVariant {
+    pub(crate) window: usize,
+    pub(crate) variant: usize,
+    pub(crate) error_p995: f32,
+    pub(crate) swim_p995: f32,
+}
+
+const INDEX: &str = "index.json";
+
+impl RunWriter {
+    /// Makes the folder of a run (an existing one is used; its pages are replaced at the end).
+    ///
+    /// # Errors
+    /// A folder that cannot be made or written to: found out here, not after an hour of rendering.
+    pub fn create(folder: &Path) -> Result<Self, ReportError> {
+        let pictures = folder.join("pictures");
+        std::fs::create_dir_all(&pictures).map_err(ReportError::at(&pictures))?;
+        let index = PictureIndex { schema_version: SCHEMA_VERSION, ..PictureIndex::default() };
+        let writer = Self { folder: folder.into(), index };
+        writer.save_index()?;
+        Ok(writer)
+    }
+
+    /// Where the run is stored.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Stores what is shown of a window. `window` is its place in the scorecard.
+    ///
+    /// # Errors
+    /// Pictures of unequal sizes, or a file that cannot be written.
+    pub fn window_pictures(&mut self, window: usize, pictures: &WindowPictures) -> Result<(), ReportError> {
+        let mut layers = vec![layer("reference.V", &pictures.truth)];
+        if let Some(beauty) = &pictures.beauty {
+            let channels = ["R", "G", "B"].into_iter().enumerate();
+            layers.extend(channels.map(|(c, name)| layer(name, &beauty.map(|rgb| rgb[c]))));
+        }
+        write_exr(&truth_path(&self.folder, window), &layers)?;
+        self.index.windows.push((window, pictures.beauty.is_some()));
+        Ok(())
+    }
+
+    /// Stores what is shown of a variant in a window, by their places in the scorecard.
+    ///
+    /// # Errors
+    /// Pictures of unequal sizes, or a file that cannot be written.
+    pub fn variant_pictures(
+        &mut self,
+        window: usize,
+        variant: usize,
+        pictures: &VariantPictures,
+    ) -> Result<(), ReportError> {
+        let VariantPictures { mask, error, swim } = pictures;
+        let layers = [layer("visibility.V", mask), layer("error.V", error), layer("swim.V", swim)];
+        write_exr(&variant_path(&self.folder, window, variant), &layers)?;
+        let (error_p995, swim_p995) = (upper_percentile(error), upper_percentile(swim));
+        self.index.variants.push(StoredVariant { window, variant, error_p995, swim_p995 });
+        Ok(())
+    }
+
+    /// Stores the scorecard: the run is complete. [`crate::write_report`] makes the pages.
+    ///
+    /// # Errors
+    /// As [`Scorecard::save`].
+    pub fn finish(self, scorecard: &Scorecard) -> Result<(), ReportError> {
+        self.save_index()?;
+        scorecard.save(&scorecard_path(&self.folder))
+    }
+
+    fn save_index(&self) -> Result<(), ReportError> {
+        let path = self.folder.join("pictures").join(INDEX);
+        let text = serde_json::to_string_pretty(&self.index);
+        let text = text.map_err(|e| ReportError::Contradiction(e.to_string()))?;
+        write_whole(&path, text.as_bytes())
+    }
+}
+
+/// Where the scorecard of a run lies.
+pub(crate) fn scorecard_path(folder: &Path) -> PathBuf {
+    folder.join("scorecard.json")
+}
+
+/// Which pictures a run has. A run without pictures is legal: it has none.
+pub(crate) fn read_index(folder: &Path) -> Result<PictureIndex, ReportError> {
+    let path = folder.join("pictures").join(INDEX);
+    if !path.exists() {
+        return Ok(PictureIndex::default());
+    }
+    let text = std::fs::read_to_string(&path).map_err(ReportError::at(&path))?;
+    serde_json::from_str(&text).map_err(|e| ReportError::File { path, reason: e.to_string() })
+}
+
+/// Reads back what is shown of a window.
+pub(crate) fn read_window(folder: &Path, window: usize) -> Result<WindowPictures, ReportError> {
+    let path = truth_path(folder, window);
+    let mut layers = read_exr(&path)?;
+    let truth = take(&mut layers, "reference.V", &path)?;
+    let rgb = ["R", "G", "B"].map(|name| take(&mut layers, name, &path).ok());
+    let beauty = match rgb {
+        [Some(r), Some(g), Some(b)] => {
+            Some(Image::from_fn(r.width(), r.height(), |x, y| [*r.at(x, y), *g.at(x, y), *b.at(x, y)]))
+        }
+        _ => None,
+    };
+    Ok(WindowPictures { truth, beauty })
+}
+
+/// Reads back what is shown of a variant.
+pub(crate) fn read_variant(
+    folder: &Path,
+    window: usize,
+    variant: usize,
+) -> Result<VariantPictures, ReportError> {
+    let path = variant_path(folder, window, variant);
+    let mut layers = read_exr(&path)?;
+    let mut take = |name| take(&mut layers, name, &path);
+    Ok(VariantPictures { mask: take("visibility.V")?, error: take("error.V")?, swim: take("swim.V")? })
+}
+
+fn take(layers: &mut Vec<Layer>, name: &str, path: &Path) -> Result<Image<f32>, ReportError> {
+    let place = layers.iter().position(|l| l.0 == name);
+    let missing = || ReportError::File { path: path.into(), reason: format!("has no layer {name}") };
+    place.map(|i| layers.swap_remove(i).1).ok_or_else(missing)
+}
+
+/// Files are named by number: names of scenes may hold anything.
+fn truth_path(folder: &Path, window: usize) -> PathBuf {
+    folder.join("pictures").join(format!("window-{window:02}-truth.exr"))
+}
+
+fn variant_path(folder: &Path, window: usize, variant: usize) -> PathBuf {
+    folder.join("pictures").join(format!("window-{window:02}-variant-{variant:02}.exr"))
+}
+
+fn layer(name: &str, image: &Image<f32>) -> Layer {
+    (name.to_string(), image.map(|&v| rounded(v)))
+}
+
+/// Rounds to the 11 significant bits of a half float: 23 stored bits less 10 leave 13 to zero.
+fn rounded(value: f32) -> f32 {
+    if !value.is_finite() {
+        return f32::NAN;
+    }
+    f32::from_bits((value.to_bits() + (1 << 12)) & !((1 << 13) - 1))
+}
+
+/// The 99.5th percentile of |v| over what counts; 0 when nothing does.
+fn upper_percentile(image: &Image<f32>) -> f32 {
+    let mut values: Vec<f32> = image.pixels().iter().map(|v| v.abs()).filter(|v| v.is_finite()).collect();
+    if values.is_empty() {
+        return 0.0;
+    }
+    let place = (values.len() - 1) * 995 / 1000;
+    *values.select_nth_unstable_by(place, f32::total_cmp).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn planes_come_back_to_eleven_bits_and_nan_stays_nan() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut writer = RunWriter::create(folder.path()).expect("made");
+        let ramp = Image::from_fn(9, 4, |x, y| if x == 0 { f32::NAN } else { x as f32 / 9.0 - y as f32 });
+        let pictures = VariantPictures { mask: ramp.clone(), error: ramp.clone(), swim: ramp.clone() };
+        writer.variant_pictures(3, 7, &pictures).expect("written");
+        let back = read_variant(folder.path(), 3, 7).expect("read");
+        for (a, b) in back.error.pixels().iter().zip(ramp.pixels()) {
+            // Half a unit in the last of 11 bits; a lost bit would be twice that.
+            assert!(a.is_nan() && b.is_nan() || (a - b).abs() <= b.abs() * 0.5f32.powi(11), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn percentile_ignores_what_does_not_count() {
+        let image = Image::from_fn(1000, 1, |x, _| if x % 2 == 0 { f32::NAN } else { -(x as f32) });
+        // Odd numbers 1 to 999: index 496 of 0 to 499 is 2 * 496 + 1.
+        assert_eq!(upper_percentile(&image), 993.0);
+        assert_eq!(upper_percentile(&Image::filled(2, 2, f32::NAN)), 0.0);
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_made_is_an_error_that_names_it() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let file = folder.path().join("a-file");
+        std::fs::write(&file, "x").expect("written");
+        assert!(RunWriter::create(&file).expect_err("a file").to_string().contains("a-file"));
+    }
+}
