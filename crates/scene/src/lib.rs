@@ -4,11 +4,33 @@
 //! A leaf crate. It knows no renderer, no image and no score. Space is glTF's: right-handed, y up,
 //! metres, a camera looks along its -z.
 
+mod assemble;
+mod builtin;
 mod camera;
+mod error;
+mod fitted;
+mod generators;
+mod gltf_file;
+mod hash;
 mod light;
+mod load;
+mod model;
+mod notes;
+mod obj;
+mod paths;
+mod spec;
+mod suggest;
 
+pub use builtin::builtin_names;
 pub use camera::{Camera, CameraPath, PathFrame};
+pub use error::SceneError;
+pub use generators::Generator;
 pub use light::AreaLight;
+pub use spec::{
+    GeometrySpec, Interpolation, Keyframe, KeyframeList, LightSpec, Motion, PathSpec, SceneFile,
+    ShadowRegionSpec, UpAxis,
+};
+pub use suggest::suggest;
 
 use glam::{DVec3, Vec3};
 
@@ -68,6 +90,25 @@ pub struct ShadowRegion {
     /// Typical distance from blocker to receiver: a light-matched fixed kernel is as wide as the
     /// penumbra of a blocker at this distance.
     pub reference_gap_world: f32,
+}
+
+impl Scene {
+    /// The path of this name.
+    ///
+    /// # Errors
+    /// `UnknownName` with the nearest name when there is none.
+    pub fn path(&self, name: &str) -> Result<&CameraPath, SceneError> {
+        let names = self.paths.iter().map(|path| path.name.as_str());
+        let found = self.paths.iter().find(|path| path.name == name);
+        found.ok_or_else(|| SceneError::unknown("path", name, names))
+    }
+}
+
+impl Material {
+    /// What has no colour of its own: grey 0.5.
+    pub(crate) fn grey() -> Self {
+        Self { name: "grey".to_owned(), albedo: Vec3::splat(0.5) }
+    }
 }
 
 impl Geometry {

@@ -1,0 +1,29 @@
+//! The standard suite, compiled in: it works wherever the program is.
+
+use crate::spec::SceneFile;
+use crate::{Scene, SceneError};
+use std::path::PathBuf;
+
+/// Name and text of each, in the order in which they are listed.
+const BUILTIN: [(&str, &str); 2] = [
+    ("edge-ladder", include_str!("../../../scenes/edge-ladder/scene.toml")),
+    ("colonnade", include_str!("../../../scenes/colonnade/scene.toml")),
+];
+
+/// The names of the standard scenes, in the order in which they are listed.
+pub fn builtin_names() -> impl ExactSizeIterator<Item = &'static str> {
+    BUILTIN.iter().map(|&(name, _)| name)
+}
+
+impl Scene {
+    /// A standard scene by name.
+    ///
+    /// # Errors
+    /// `UnknownName` with the nearest name when there is none.
+    pub fn builtin(name: &str) -> Result<Self, SceneError> {
+        let found = BUILTIN.iter().find(|(known, _)| *known == name);
+        let (_, source) = found.ok_or_else(|| SceneError::unknown("scene", name, builtin_names()))?;
+        let path = PathBuf::from(format!("scenes/{name}/scene.toml"));
+        Self::from_file(name, &SceneFile::parse(source, &path)?, &path)
+    }
+}

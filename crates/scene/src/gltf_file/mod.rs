@@ -1,0 +1,13 @@
+//! glTF 2.0.
+
+mod animation;
+
+pub(crate) use animation::CameraTrack;
+
+use crate::SceneError;
+use crate::model::Model;
+use std::path::Path;
+
+pub(crate) fn read(path: &Path) -> Result<Model, SceneError> {
+    Err(SceneError::NotAScene { path: path.to_owned() })
+}

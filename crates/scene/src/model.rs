@@ -1,0 +1,65 @@
+//! What loaders and generators hand over: named objects in the file's own coordinates, in f64, not
+//! yet checked. No light, no path and no region: those come from the scene file.
+
+use crate::Material;
+use crate::gltf_file::CameraTrack;
+use glam::{DAffine3, DVec3};
+
+/// A model as it was read or generated.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Model {
+    pub(crate) objects: Vec<Object>,
+    pub(crate) materials: Vec<Material>,
+    pub(crate) cameras: Vec<ModelCamera>,
+    pub(crate) notes: Vec<String>,
+}
+
+/// A run of triangles of one material under one name.
+#[derive(Clone, Debug)]
+pub(crate) struct Object {
+    pub(crate) name: String,
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) material: u32,
+}
+
+/// A camera of the model's file.
+#[derive(Clone, Debug)]
+pub(crate) struct ModelCamera {
+    pub(crate) name: String,
+    pub(crate) yfov_radians: f64,
+    pub(crate) track: CameraTrack,
+}
+
+impl Model {
+    /// Moves everything.
+    pub(crate) fn transform(&mut self, world_from_file: DAffine3) {
+        for position in self.objects.iter_mut().flat_map(|object| &mut object.positions) {
+            *position = world_from_file.transform_point3(*position);
+        }
+        for camera in &mut self.cameras {
+            camera.track.world_from_file = world_from_file * camera.track.world_from_file;
+        }
+    }
+
+    /// Takes over another file's contents.
+    pub(crate) fn append(&mut self, mut other: Self) {
+        let first = self.materials.len() as u32;
+        other.objects.iter_mut().for_each(|object| object.material += first);
+        self.objects.append(&mut other.objects);
+        self.materials.append(&mut other.materials);
+        self.cameras.append(&mut other.cameras);
+        self.notes.append(&mut other.notes);
+    }
+
+    /// Smallest and largest coordinates of finite vertices; `None` without any.
+    pub(crate) fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        self.objects.iter().flat_map(|object| &object.positions).filter(|position| position.is_finite()).fold(
+            None,
+            |bounds, &p| match bounds {
+                None => Some((p, p)),
+                Some((lo, hi)) => Some((lo.min(p), hi.max(p))),
+            },
+        )
+    }
+}
