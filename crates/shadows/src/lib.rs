@@ -1,1 +1,28 @@
-//! stub
+//! The wgpu pipeline: contact-hardening soft shadows and every other technique, on real passes.
+//!
+//! A technique writes a [`Recording`], plain data; only `gpu` knows wgpu. Nothing here knows the
+//! ground truth: the pipeline rasterises its own depth, so that a wrong matrix shows.
+
+mod calibration;
+mod error;
+mod gpu;
+mod layout;
+mod light_map;
+mod recording;
+mod renderer;
+mod shader;
+mod stages;
+mod technique;
+mod techniques;
+
+pub use error::ShadowError;
+pub use gpu::{AdapterChoice, AdapterDescription, Gpu, Timing, adapters};
+pub use layout::Globals;
+pub use light_map::{LightKind, LightMap};
+pub use recording::{Binding, ComputePass, Format, Pass, RasterPass, Recording, TextureId, TextureInfo};
+pub use renderer::{Dump, Renderer, Shaded};
+pub use shader::{Fragment, fragments};
+pub use technique::{
+    Calibration, Info, Inputs, Receivers, Seeding, Technique, Variant, VariantId, select_variants,
+};
+pub use techniques::VARIANTS;

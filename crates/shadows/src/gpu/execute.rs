@@ -1,0 +1,189 @@
+//! Runs a recording: encodes its passes, times them, reads the values back.
+
+use super::textures::Allocated;
+use super::{Gpu, MAX_TIMED_PASSES};
+use crate::recording::{Binding, ComputePass, Pass, RasterPass, Recording};
+use crate::{Shaded, ShadowError};
+
+/// GPU time of one pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timing {
+    /// The pass.
+    pub label: &'static str,
+    /// Milliseconds between its first and its last timestamp.
+    pub ms: f64,
+    /// Whether its result is kept: then this is a cost per scene, not per frame.
+    pub kept: bool,
+}
+
+/// The resources of one run.
+struct Run<'a> {
+    recording: &'a Recording,
+    allocated: Allocated,
+    globals: wgpu::Buffer,
+    values: wgpu::Buffer,
+}
+
+impl Gpu {
+    /// Executes all passes whose results are not there yet.
+    pub(crate) fn run(&mut self, recording: &Recording) -> Result<Shaded, ShadowError> {
+        let run = self.prepare(recording)?;
+        let mut encoder =
+            self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let mut timed = Vec::new();
+        for pass in &recording.passes {
+            let written = pass.written();
+            if !written.is_empty() && written.iter().all(|t| run.allocated.ready[t.0]) {
+                continue;
+            }
+            let kept = !written.is_empty() && written.iter().all(|t| recording.info(*t).kept.is_some());
+            let slot = (timed.len() < MAX_TIMED_PASSES as usize).then_some(timed.len() as u32);
+            match pass {
+                Pass::Raster(raster) => self.encode_raster(&mut encoder, &run, (raster, slot)),
+                Pass::Compute(compute) => self.encode_compute(&mut encoder, &run, (compute, slot)),
+            }
+            timed.extend(slot.map(|_| (pass.label(), kept)));
+        }
+        let reads_values = recording.passes.iter().any(writes_values);
+        let values = reads_values.then(|| (&run.values, u64::from(recording.globals.receivers) * 4));
+        let (floats, times) = self.submit_and_read(encoder, values, timed.len() as u32)?;
+        self.textures.filled(recording);
+        let timing = |((label, kept), ms): ((&'static str, bool), f64)| Timing { label, ms, kept };
+        Ok(Shaded { values: floats, timings: timed.into_iter().zip(times).map(timing).collect() })
+    }
+
+    fn prepare<'a>(&mut self, recording: &'a Recording) -> Result<Run<'a>, ShadowError> {
+        let bytes = (u64::from(recording.globals.receivers) * 4).max(4);
+        let limits = self.device.limits();
+        let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        if bytes > limit {
+            return Err(ShadowError::TooLarge { what: "a result", wanted: bytes, limit });
+        }
+        use wgpu::util::DeviceExt as _;
+        let globals = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("globals"),
+            contents: bytemuck::bytes_of(&recording.globals),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        let values = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("values"),
+            size: bytes,
+            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        let allocated = self.textures.allocate(&self.device, recording);
+        Ok(Run { recording, allocated, globals, values })
+    }
+
+    fn encode_compute(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        run: &Run<'_>,
+        (pass, slot): (&ComputePass, Option<u32>),
+    ) {
+        let compiled = self.pipelines.compute(&self.device, pass);
+        let group = self.bind_group(run, &compiled.layout, &pass.bindings);
+        let timestamp_writes =
+            self.timestamps.as_ref().zip(slot).map(|(query_set, slot)| wgpu::ComputePassTimestampWrites {
+                query_set,
+                beginning_of_pass_write_index: Some(2 * slot),
+                end_of_pass_write_index: Some(2 * slot + 1),
+            });
+        let mut encoded = encoder
+            .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(pass.label), timestamp_writes });
+        encoded.set_pipeline(&compiled.pipeline);
+        encoded.set_bind_group(0, &group, &[]);
+        encoded.dispatch_workgroups(pass.groups[0], pass.groups[1], 1);
+    }
+
+    fn encode_raster(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        run: &Run<'_>,
+        (pass, slot): (&RasterPass, Option<u32>),
+    ) {
+        let compiled = self.pipelines.raster(&self.device, (pass, run.recording));
+        let group = self.bind_group(run, &compiled.layout, &[Binding::Globals]);
+        let view = |t: crate::TextureId| run.allocated.textures[t.0].create_view(&Default::default());
+        let depth = view(pass.depth);
+        let targets: Vec<_> = pass.targets.iter().map(|&(t, clear)| (view(t), clear)).collect();
+        let attachments: Vec<_> = targets
+            .iter()
+            .map(|(view, clear)| {
+                let colour = wgpu::Color { r: *clear, g: *clear, b: *clear, a: *clear };
+                let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(colour), store: wgpu::StoreOp::Store };
+                Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
+            })
+            .collect();
+        let mut encoded = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some(pass.label),
+            color_attachments: &attachments,
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &depth,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: self.timestamps.as_ref().zip(slot).map(|(query_set, slot)| {
+                wgpu::RenderPassTimestampWrites {
+                    query_set,
+                    beginning_of_pass_write_index: Some(2 * slot),
+                    end_of_pass_write_index: Some(2 * slot + 1),
+                }
+            }),
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        if let Some((vertices, count)) = &self.vertices {
+            encoded.set_pipeline(&compiled.pipeline);
+            encoded.set_bind_group(0, &group, &[]);
+            encoded.set_vertex_buffer(0, vertices.slice(..));
+            encoded.draw(0..*count, 0..1);
+        }
+    }
+
+    fn bind_group(
+        &self,
+        run: &Run<'_>,
+        layout: &wgpu::BindGroupLayout,
+        bindings: &[Binding],
+    ) -> wgpu::BindGroup {
+        let views: Vec<_> = bindings
+            .iter()
+            .map(|binding| match binding {
+                Binding::ShadowMap(t)
+                | Binding::CameraDepth(t)
+                | Binding::CameraNormal(t)
+                | Binding::Source(t)
+                | Binding::Destination(t) => {
+                    Some(run.allocated.textures[t.0].create_view(&Default::default()))
+                }
+                _ => None,
+            })
+            .collect();
+        let entry =
+            |(binding, view): (&Binding, &'_ Option<wgpu::TextureView>)| (binding.number(), view.clone());
+        let numbered: Vec<_> = bindings.iter().zip(&views).map(entry).collect();
+        let entries: Vec<_> = bindings
+            .iter()
+            .zip(&numbered)
+            .filter_map(|(binding, (number, view))| {
+                let resource = match (binding, view) {
+                    (_, Some(view)) => wgpu::BindingResource::TextureView(view),
+                    (Binding::Globals, _) => run.globals.as_entire_binding(),
+                    (Binding::Values, _) => run.values.as_entire_binding(),
+                    (Binding::Anchors, _) => self.anchors.as_ref()?.0.as_entire_binding(),
+                    _ => wgpu::BindingResource::Sampler(&self.pipelines.nearest),
+                };
+                Some(wgpu::BindGroupEntry { binding: *number, resource })
+            })
+            .collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+    }
+}
+
+fn writes_values(pass: &Pass) -> bool {
+    matches!(pass, Pass::Compute(compute) if compute.bindings.contains(&Binding::Values))
+}

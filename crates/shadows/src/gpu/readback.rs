@@ -1,0 +1,130 @@
+//! From the GPU back to memory.
+
+use super::Gpu;
+use crate::recording::{Format, Recording};
+use crate::{Dump, ShadowError};
+use std::time::Duration;
+use umbrage_frame::Image;
+
+/// A frame on a software driver takes seconds at most; a hung driver is told from a slow one.
+const PATIENCE: Duration = Duration::from_secs(300);
+
+impl Gpu {
+    /// Submits, waits, and returns the values and the milliseconds of `timed` passes.
+    pub(super) fn submit_and_read(
+        &self,
+        mut encoder: wgpu::CommandEncoder,
+        values: Option<(&wgpu::Buffer, u64)>,
+        timed: u32,
+    ) -> Result<(Vec<f32>, Vec<f64>), ShadowError> {
+        let staging = values.map(|(buffer, bytes)| {
+            let staging = self.staging(bytes);
+            encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, bytes);
+            staging
+        });
+        let times = self.timestamps.as_ref().filter(|_| timed > 0).map(|queries| {
+            let bytes = u64::from(timed) * 16;
+            let resolved = self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("resolved times"),
+                size: bytes,
+                usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+                mapped_at_creation: false,
+            });
+            let staging = self.staging(bytes);
+            encoder.resolve_query_set(queries, 0..2 * timed, &resolved, 0);
+            encoder.copy_buffer_to_buffer(&resolved, 0, &staging, 0, bytes);
+            staging
+        });
+        self.queue.submit([encoder.finish()]);
+        self.check()?;
+        let floats = staging.map(|s| self.read::<f32>(&s)).transpose()?.unwrap_or_default();
+        let ticks = times.map(|s| self.read::<u64>(&s)).transpose()?.unwrap_or_default();
+        self.wait()?;
+        let period_ms = f64::from(self.queue.get_timestamp_period()) * 1e-6;
+        let ms = ticks.chunks_exact(2).map(|t| t[1].saturating_sub(t[0]) as f64 * period_ms).collect();
+        Ok((floats, ms))
+    }
+
+    /// Reads every float texture of a recording that was just run.
+    pub(crate) fn read_textures(&mut self, recording: &Recording) -> Result<Vec<Dump>, ShadowError> {
+        let allocated = self.textures.allocate(&self.device, recording);
+        let mut dumps = Vec::new();
+        for (info, texture) in recording.textures.iter().zip(&allocated.textures) {
+            let (texel_bytes, channels) = match info.format {
+                Format::R32Float => (4, 1),
+                Format::Rgba16Float => (8, 4),
+                Format::Depth32Float => continue,
+            };
+            // Rows of a copy are aligned to 256 bytes.
+            let row_bytes = (info.width * texel_bytes).next_multiple_of(256);
+            let staging = self.staging(u64::from(row_bytes) * u64::from(info.height));
+            let mut encoder = self.device.create_command_encoder(&Default::default());
+            encoder.copy_texture_to_buffer(
+                texture.as_image_copy(),
+                wgpu::TexelCopyBufferInfo {
+                    buffer: &staging,
+                    layout: wgpu::TexelCopyBufferLayout {
+                        offset: 0,
+                        bytes_per_row: Some(row_bytes),
+                        rows_per_image: None,
+                    },
+                },
+                wgpu::Extent3d { width: info.width, height: info.height, depth_or_array_layers: 1 },
+            );
+            self.queue.submit([encoder.finish()]);
+            let bytes = self.read::<u8>(&staging)?;
+            let texel = |x: u32, y: u32, c: u32| {
+                let at = (y * row_bytes + x * texel_bytes) as usize;
+                match info.format {
+                    Format::Rgba16Float => half(&bytes, at + 2 * c as usize),
+                    _ => float(&bytes, at),
+                }
+            };
+            let channel = |c| Image::from_fn(info.width, info.height, |x, y| texel(x, y, c));
+            dumps.push(Dump { label: info.label, channels: (0..channels).map(channel).collect() });
+        }
+        self.check()?;
+        Ok(dumps)
+    }
+
+    fn staging(&self, bytes: u64) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("staging"),
+            size: bytes.max(4),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        })
+    }
+
+    fn read<T: bytemuck::Pod>(&self, staging: &wgpu::Buffer) -> Result<Vec<T>, ShadowError> {
+        staging.slice(..).map_async(wgpu::MapMode::Read, |_| {});
+        self.wait()?;
+        let range = staging.slice(..).get_mapped_range().map_err(|e| ShadowError::Gpu(e.to_string()))?;
+        Ok(bytemuck::pod_collect_to_vec(&range))
+    }
+
+    fn wait(&self) -> Result<(), ShadowError> {
+        let waited =
+            self.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) });
+        match waited {
+            Ok(_) => self.check(),
+            Err(wgpu::PollError::Timeout) => Err(ShadowError::Timeout { secs: PATIENCE.as_secs() }),
+            Err(e) => Err(ShadowError::Gpu(e.to_string())),
+        }
+    }
+}
+
+fn float(bytes: &[u8], at: usize) -> f32 {
+    f32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
+}
+
+/// IEEE half to float; the targets hold no infinities.
+fn half(bytes: &[u8], at: usize) -> f32 {
+    let bits = u16::from_le_bytes([bytes[at], bytes[at + 1]]);
+    let (sign, exponent, mantissa) = (bits >> 15, (bits >> 10) & 31, bits & 1023);
+    let magnitude = match exponent {
+        0 => f32::from(mantissa) * 2f32.powi(-24),
+        e => (1.0 + f32::from(mantissa) / 1024.0) * 2f32.powi(i32::from(e) - 15),
+    };
+    if sign == 1 { -magnitude } else { magnitude }
+}

@@ -1,0 +1,141 @@
+//! The shadow map's projection: orthographic for a sun, perspective for a light that has a place.
+
+use glam::{Mat4, Vec3};
+use umbrage_scene::{AreaLight, Geometry, Scene, ShadowRegion};
+
+/// Which of the two projections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightKind {
+    /// Orthographic.
+    Sun,
+    /// Perspective.
+    Local,
+}
+
+/// How the light sees the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightMap {
+    /// Which projection.
+    pub kind: LightKind,
+    /// World to light space; linear depth is `-z` there.
+    pub light_from_world: Mat4,
+    /// World to the map's clip space.
+    pub clip_from_world: Mat4,
+    /// Side in texels.
+    pub texels: u32,
+    /// Sun: map widths per metre. Local: map widths per unit of slope.
+    pub scale: f32,
+    /// Sun: tangent of the angular radius. Local: radius in metres (disc of equal area).
+    pub light_size: f32,
+    /// Smallest depth of any vertex in the map, metres.
+    pub nearest_blocker: f32,
+    /// Depth of the far plane, metres.
+    pub far: f32,
+    /// Depth of the region's centre, metres: what the seeds' relative constants scale with.
+    pub eye_distance: f32,
+    /// Blocker distance for which fixed kernels are set, metres.
+    pub reference_gap: f32,
+}
+
+/// Widest half-angle of a local light's single map: beyond it texels stretch without bound.
+const MAX_HALF_ANGLE: f32 = 60.0 * std::f32::consts::PI / 180.0;
+
+impl LightMap {
+    /// Fits the map to the scene's shadow region.
+    pub fn new(scene: &Scene, light: &AreaLight, texels: u32) -> Self {
+        match light.centre() {
+            None => Self::sun(scene, light, texels),
+            Some(centre) => Self::local(scene, light, centre, texels),
+        }
+    }
+
+    fn sun(scene: &Scene, light: &AreaLight, texels: u32) -> Self {
+        let ShadowRegion { centre, width_world, reference_gap_world } = scene.shadow_region;
+        let towards = light.direction_from(centre);
+        // The first document's demo sees the scene from one map width away; farther where
+        // something stands higher, for nothing may be behind the light.
+        let heights = scene.geometry.positions.iter().map(|&p| (p - centre).dot(towards));
+        let (low, high) = heights.fold((0f32, 0f32), |(lo, hi), h| (lo.min(h), hi.max(h)));
+        let eye_distance = width_world.max(high * 1.01 + 0.01);
+        let light_from_world = view_matrix(centre + towards * eye_distance, -towards);
+        let far = eye_distance - low * 1.01 + 0.01;
+        let half = 0.5 * width_world;
+        let projection = glam::camera::rh::proj::directx::orthographic(-half, half, -half, half, 0.0, far);
+        let angular_radius = 0.5 * light.angular_diameter_radians().unwrap_or(0.0);
+        Self {
+            kind: LightKind::Sun,
+            light_from_world,
+            clip_from_world: projection * light_from_world,
+            texels,
+            scale: 1.0 / width_world,
+            light_size: angular_radius.tan(),
+            nearest_blocker: eye_distance - high,
+            far,
+            eye_distance,
+            reference_gap: reference_gap_world,
+        }
+    }
+
+    fn local(scene: &Scene, light: &AreaLight, eye: Vec3, texels: u32) -> Self {
+        let ShadowRegion { centre, width_world, reference_gap_world } = scene.shadow_region;
+        let axis = (centre - eye).normalize_or(Vec3::NEG_Y);
+        let distance = (centre - eye).length().max(1e-3);
+        let half_angle = (0.5 * width_world / distance).atan().min(MAX_HALF_ANGLE);
+        let light_from_world = view_matrix(eye, axis);
+        let near = 1e-3 * distance;
+        let scale = 0.5 / half_angle.tan();
+        let depths = depths_inside(&scene.geometry, light_from_world, scale, near);
+        let (nearest_blocker, farthest) = depths;
+        let far = farthest * 1.01 + 0.01;
+        let projection = glam::camera::rh::proj::directx::perspective(2.0 * half_angle, 1.0, near, far);
+        Self {
+            kind: LightKind::Local,
+            light_from_world,
+            clip_from_world: projection * light_from_world,
+            texels,
+            scale,
+            light_size: light.radius_world().unwrap_or(0.0),
+            nearest_blocker,
+            far,
+            eye_distance: distance,
+            reference_gap: reference_gap_world,
+        }
+    }
+
+    /// Identifies the map's contents together with the geometry's own hash.
+    pub(crate) fn key(&self) -> u64 {
+        let floats = self.clip_from_world.to_cols_array();
+        let seed = 0xcbf2_9ce4_8422_2325u64 ^ u64::from(self.texels);
+        floats.iter().fold(seed, |hash, f| (hash ^ u64::from(f.to_bits())).wrapping_mul(0x0100_0000_01b3))
+    }
+
+    /// Width of a texel in metres at the region's centre.
+    pub fn texel_world(&self) -> f32 {
+        let width = match self.kind {
+            LightKind::Sun => 1.0 / self.scale,
+            LightKind::Local => self.eye_distance / self.scale,
+        };
+        width / self.texels as f32
+    }
+}
+
+/// A view matrix that looks along `forward`.
+fn view_matrix(eye: Vec3, forward: Vec3) -> Mat4 {
+    let up = if forward.y.abs() > 0.99 { Vec3::NEG_Z } else { Vec3::Y };
+    glam::camera::rh::view::look_to_mat4(eye, forward, up)
+}
+
+/// Smallest and largest depth of the vertices that the map sees.
+fn depths_inside(geometry: &Geometry, light_from_world: Mat4, scale: f32, near: f32) -> (f32, f32) {
+    let mut range = (f32::INFINITY, near);
+    for &position in &geometry.positions {
+        let p = light_from_world.transform_point3(position);
+        let depth = -p.z;
+        let inside = depth > near && p.x.abs().max(p.y.abs()) * scale <= 0.5 * depth;
+        range.1 = range.1.max(depth);
+        if inside {
+            range.0 = range.0.min(depth);
+        }
+    }
+    (if range.0.is_finite() { range.0 } else { near }, range.1)
+}

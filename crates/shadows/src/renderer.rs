@@ -1,0 +1,267 @@
+//! A scene on a graphics adapter: masks for frames, values for anchors, intermediate targets.
+
+use crate::layout::{Anchor, Vertex};
+use crate::{Gpu, Info, Inputs, LightMap, Recording, Seeding, ShadowError, Timing, VariantId};
+use crate::{Receivers, stages};
+use glam::Vec3;
+use umbrage_frame::{Anchors, Gbuffer, Image, View};
+use umbrage_scene::{AreaLight, Scene};
+
+/// Renders one scene.
+pub struct Renderer<'a> {
+    gpu: &'a mut Gpu,
+    scene: &'a Scene,
+    map_texels: u32,
+    geometry_key: u64,
+    light_map: Option<(AreaLight, LightMap)>,
+}
+
+/// A variant's answer at each receiver.
+#[derive(Clone, Debug)]
+pub struct Shaded {
+    /// The unoccluded fraction of the light per pixel (row order) or anchor.
+    pub values: Vec<f32>,
+    /// GPU time of each pass that ran; empty without timestamp queries.
+    pub timings: Vec<Timing>,
+}
+
+/// An intermediate target.
+#[derive(Clone, Debug)]
+pub struct Dump {
+    /// `shadow-map`, `penumbra-mask`, ...
+    pub label: &'static str,
+    /// One image a channel.
+    pub channels: Vec<Image<f32>>,
+}
+
+/// What is rendered: a variant, from where, under which light, with which pattern.
+struct Job<'a> {
+    variant: VariantId,
+    view: &'a View,
+    receivers: Receivers,
+    seeding: Seeding,
+    pattern: [u32; 2],
+}
+
+impl<'a> Renderer<'a> {
+    /// Uploads the scene.
+    ///
+    /// # Errors
+    /// A shadow map or scene that is too large for the adapter.
+    pub fn new(gpu: &'a mut Gpu, scene: &'a Scene, map_texels: u32) -> Result<Self, ShadowError> {
+        let limit = gpu.largest_texture();
+        if map_texels == 0 || map_texels > limit {
+            return Err(ShadowError::TooLarge {
+                what: "a shadow map",
+                wanted: map_texels.into(),
+                limit: limit.into(),
+            });
+        }
+        let vertices = flat_vertices(scene);
+        let geometry_key = gpu.upload_scene(&vertices)?;
+        Ok(Self { gpu, scene, map_texels, geometry_key, light_map: None })
+    }
+
+    /// The projection of the light's map.
+    pub fn light_map(&mut self, light: &AreaLight) -> LightMap {
+        match self.light_map {
+            Some((of, map)) if of == *light => map,
+            _ => {
+                let map = LightMap::new(self.scene, light, self.map_texels);
+                self.light_map = Some((*light, map));
+                map
+            }
+        }
+    }
+
+    /// Sets the surface points that `shade_anchors` shades.
+    ///
+    /// # Errors
+    /// More than the adapter's buffers hold.
+    pub fn set_anchors(&mut self, anchors: &Anchors) -> Result<(), ShadowError> {
+        let anchor = |(p, n): (&Vec3, &Vec3)| Anchor {
+            position: p.extend(1.0).to_array(),
+            normal: n.extend(0.0).to_array(),
+        };
+        let all: Vec<Anchor> = anchors.position.iter().zip(&anchors.normal).map(anchor).collect();
+        self.gpu.upload_anchors(&all)
+    }
+
+    /// A variant over the pixels of a view, as a game would show it.
+    ///
+    /// # Errors
+    /// Too large a picture, or a driver that fails.
+    pub fn shade_frame(
+        &mut self,
+        variant: VariantId,
+        (view, light): (&View, &AreaLight),
+        (seeding, pattern): (Seeding, [u32; 2]),
+    ) -> Result<Shaded, ShadowError> {
+        let job = Job { variant, view, receivers: Receivers::Frame, seeding, pattern };
+        let recording = self.record(&job, light)?;
+        self.gpu.run(&recording)
+    }
+
+    /// A variant at the anchors set before: its last pass is dispatched over them, all passes
+    /// before it over the frame. `pattern` is frame and seed.
+    ///
+    /// # Errors
+    /// As for frames.
+    pub fn shade_anchors(
+        &mut self,
+        variant: VariantId,
+        (view, light): (&View, &AreaLight),
+        (seeding, pattern): (Seeding, [u32; 2]),
+    ) -> Result<Shaded, ShadowError> {
+        let receivers = Receivers::Anchors { count: self.gpu.anchors() };
+        let recording = self.record(&Job { variant, view, receivers, seeding, pattern }, light)?;
+        self.gpu.run(&recording)
+    }
+
+    /// Every intermediate target of a variant's frame, after `shade_frame`'s passes.
+    ///
+    /// # Errors
+    /// As for frames.
+    pub fn dump(
+        &mut self,
+        variant: VariantId,
+        (view, light): (&View, &AreaLight),
+        (seeding, pattern): (Seeding, [u32; 2]),
+    ) -> Result<(Shaded, Vec<Dump>), ShadowError> {
+        let job = Job { variant, view, receivers: Receivers::Frame, seeding, pattern };
+        let recording = self.record(&job, light)?;
+        let shaded = self.gpu.run(&recording)?;
+        let dumps = self.gpu.read_textures(&recording)?;
+        Ok((shaded, dumps))
+    }
+
+    /// What the raster pipeline sees: the witness that truth's own rays are compared with.
+    ///
+    /// # Errors
+    /// As for frames.
+    pub fn gbuffer(&mut self, view: &View, light: &AreaLight) -> Result<Gbuffer, ShadowError> {
+        self.check_size(view)?;
+        let map = self.light_map(light);
+        let inputs = Inputs {
+            view,
+            light: &map,
+            calibration: crate::Calibration::LightMatched,
+            receivers: Receivers::Frame,
+            seeding: Seeding::Frozen,
+            geometry_key: self.geometry_key,
+        };
+        let mut recording = Recording::new(inputs.globals(0, 0));
+        stages::depth_prepass(&mut recording, &inputs);
+        self.gpu.run(&recording)?;
+        let dumps = self.gpu.read_textures(&recording)?;
+        Ok(gbuffer_from(view, &dumps))
+    }
+
+    /// The passes of a variant, as data.
+    ///
+    /// # Errors
+    /// Too large a picture.
+    fn record(&mut self, job: &Job<'_>, light: &AreaLight) -> Result<Recording, ShadowError> {
+        self.check_size(job.view)?;
+        let map = self.light_map(light);
+        let inputs = Inputs {
+            view: job.view,
+            light: &map,
+            calibration: job.variant.calibration,
+            receivers: job.receivers,
+            seeding: job.seeding,
+            geometry_key: self.geometry_key,
+        };
+        let [frame, seed] = job.pattern;
+        let mut recording = Recording::new(inputs.globals(frame, seed));
+        job.variant.variant.technique.record(&mut recording, &inputs);
+        Ok(recording)
+    }
+
+    fn check_size(&self, view: &View) -> Result<(), ShadowError> {
+        let limit = self.gpu.largest_texture();
+        let wanted = view.width.max(view.height);
+        if wanted > limit || view.width == 0 || view.height == 0 {
+            return Err(ShadowError::TooLarge {
+                what: "a picture",
+                wanted: wanted.into(),
+                limit: limit.into(),
+            });
+        }
+        Ok(())
+    }
+}
+
+impl VariantId {
+    /// The technique's description.
+    pub fn info(&self) -> Info {
+        self.variant.technique.info()
+    }
+
+    /// Passes of one frame, in order (those of a static light's map first).
+    pub fn passes(&self, scene: &Scene) -> Vec<&'static str> {
+        let view = View {
+            width: 64,
+            height: 64,
+            clip_from_world: glam::Mat4::IDENTITY,
+            camera_from_world: glam::Mat4::IDENTITY,
+            yfov_radians: 1.0,
+        };
+        let map = LightMap::new(scene, &scene.lights[0], 2048);
+        let inputs = Inputs {
+            view: &view,
+            light: &map,
+            calibration: self.calibration,
+            receivers: Receivers::Frame,
+            seeding: Seeding::Fresh,
+            geometry_key: 0,
+        };
+        let mut recording = Recording::new(inputs.globals(0, 0));
+        self.variant.technique.record(&mut recording, &inputs);
+        recording.passes.iter().map(|p| p.label()).collect()
+    }
+
+    /// The three kinds of bias, in words.
+    pub fn bias(&self) -> String {
+        crate::calibration::describe_bias(self.calibration)
+    }
+
+    /// Search radius, kernel cap and radius convention, in words.
+    pub fn kernels(&self) -> String {
+        crate::calibration::describe_kernels(self.calibration)
+    }
+}
+
+/// Three vertices a triangle, with its geometric normal.
+fn flat_vertices(scene: &Scene) -> Vec<Vertex> {
+    let geometry = &scene.geometry;
+    let corners = (0..geometry.triangles.len()).map(|t| geometry.corners(t));
+    let vertices = corners.flat_map(|[a, b, c]| {
+        let normal = (b - a).cross(c - a).normalize_or(Vec3::Y).to_array();
+        [a, b, c].map(|p| Vertex { position: p.to_array(), normal })
+    });
+    vertices.collect()
+}
+
+/// Linear depth and normals as the frame crate has them.
+fn gbuffer_from(view: &View, dumps: &[Dump]) -> Gbuffer {
+    let channels =
+        |label| dumps.iter().find(|d| d.label == label).map(|d| d.channels.as_slice()).unwrap_or_default();
+    let (depths, normals) = (channels("camera-depth"), channels("camera-normal"));
+    let depth = depths[0].map(|&d| if d > 0.0 { d } else { f32::INFINITY });
+    let world_from_camera = view.camera_from_world.inverse();
+    let tan = (0.5 * view.yfov_radians).tan();
+    let aspect = view.width as f32 / view.height as f32;
+    let position = Image::from_fn(view.width, view.height, |x, y| {
+        let d = *depth.at(x, y);
+        let ndc_x = (x as f32 + 0.5) / view.width as f32 * 2.0 - 1.0;
+        let ndc_y = 1.0 - (y as f32 + 0.5) / view.height as f32 * 2.0;
+        let camera = Vec3::new(ndc_x * tan * aspect, ndc_y * tan, -1.0) * d;
+        if d.is_finite() { world_from_camera.transform_point3(camera) } else { Vec3::ZERO }
+    });
+    let normal = Image::from_fn(view.width, view.height, |x, y| {
+        let n = Vec3::new(*normals[0].at(x, y), *normals[1].at(x, y), *normals[2].at(x, y));
+        n.normalize_or_zero()
+    });
+    Gbuffer { view: *view, depth, position, normal }
+}

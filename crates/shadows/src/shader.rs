@@ -1,0 +1,78 @@
+//! WGSL fragments and how they become a module: concatenated (module scope has no order), a
+//! pass's own file first so that line numbers are its own. A slot is a function of fixed
+//! signature that exactly one of several fragments defines.
+
+use std::borrow::Cow;
+
+/// A named piece of WGSL.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Fragment {
+    /// File name without its ending.
+    pub name: Cow<'static, str>,
+    /// The text.
+    pub source: Cow<'static, str>,
+}
+
+impl Fragment {
+    /// A fragment that is part of the program.
+    pub const fn new(name: &'static str, source: &'static str) -> Self {
+        Self { name: Cow::Borrowed(name), source: Cow::Borrowed(source) }
+    }
+}
+
+macro_rules! shared {
+    ($($constant:ident = $file:literal),* $(,)?) => {
+        $(
+            #[doc = concat!("`wgsl/", $file, ".wgsl`")]
+            pub(crate) const $constant: Fragment =
+                Fragment::new($file, include_str!(concat!("wgsl/", $file, ".wgsl")));
+        )*
+        /// Every shared fragment, for documentation and tests.
+        pub fn fragments() -> Vec<Fragment> {
+            vec![$($constant),*]
+        }
+    };
+}
+
+shared! {
+    GLOBALS = "globals",
+    RASTER_CAMERA = "raster_camera",
+    RASTER_SHADOW = "raster_shadow",
+    SURFACE = "surface",
+    RECEIVER_FRAME = "receiver_frame",
+    RECEIVER_ANCHOR = "receiver_anchor",
+    ENTRY_SHADE = "entry_shade",
+    LIGHT_SUN = "light_sun",
+    LIGHT_LOCAL = "light_local",
+    BIAS_CONSTANT = "bias_constant",
+    BIAS_RECEIVER_PLANE = "bias_receiver_plane",
+    TAP = "tap",
+    KERNEL_VOGEL = "kernel_vogel",
+    PATTERN_NONE = "pattern_none",
+    PATTERN_IGN = "pattern_ign",
+    HASH = "hash",
+    SEED_FRESH = "seed_fresh",
+    SEED_FROZEN = "seed_frozen",
+    SEED_ANIMATED = "seed_animated",
+    FILTER_DISC = "filter_disc",
+    BLOCKER_SEARCH = "blocker_search",
+    LAW_SQUARED = "law_squared",
+    LAW_LIGHT = "law_light",
+    BLUR_AXIS = "blur_axis",
+    MIN_SHRINK = "min_shrink",
+    MIN_AXIS = "min_axis",
+    FETCH_BILINEAR = "fetch_bilinear",
+    PENUMBRA_MASK = "penumbra_mask",
+}
+
+/// The module's text.
+pub(crate) fn concatenate(fragments: &[Fragment]) -> String {
+    fragments.iter().map(|f| f.source.as_ref()).collect::<Vec<_>>().join("\n")
+}
+
+/// Those of the constants that the module declares: stages share one list, and an override
+/// without a value is an error that wgpu reports.
+pub(crate) fn declared(source: &str, constants: &[(&'static str, f64)]) -> Vec<(&'static str, f64)> {
+    let is_declared = |name: &str| source.contains(&format!("override {name}:"));
+    constants.iter().copied().filter(|(name, _)| is_declared(name)).collect()
+}

@@ -1,0 +1,15 @@
+//! Shared stages: plain functions that add passes to a recording and return the texture written.
+
+mod blur;
+mod depth;
+mod min_filter;
+mod penumbra_mask;
+mod shade;
+mod shadow_map;
+
+pub(crate) use blur::{BOX_3, Blur, GAUSS_7, blur};
+pub(crate) use depth::depth_prepass;
+pub(crate) use min_filter::{MinFilter, min_filter};
+pub(crate) use penumbra_mask::{PenumbraMask, penumbra_mask};
+pub(crate) use shade::{Shade, shade};
+pub(crate) use shadow_map::shadow_map;

@@ -1,0 +1,65 @@
+//! T13: contact hardening with a minimum-filtered shadow map as the blocker's depth.
+
+use crate::calibration::PRINTED_RADIUS_UV;
+use crate::shader::{self, Fragment};
+use crate::stages::{BOX_3, Blur, MinFilter, Shade, blur, min_filter, shade, shadow_map};
+use crate::{Calibration, Info, Inputs, LightKind, LightMap, Recording, Technique};
+
+const OWN: Fragment = Fragment::new("chss_min", include_str!("chss_min.wgsl"));
+
+/// The demo reduces the map by 4 before it filters.
+const SHRINK: u32 = 4;
+
+/// Minimum of the shadow map in place of a blocker search.
+pub(crate) struct ChssMin {
+    /// Bilinear-compare taps of the filter.
+    pub(crate) filter_taps: u32,
+}
+
+impl Technique for ChssMin {
+    fn info(&self) -> Info {
+        Info {
+            title: "contact hardening with the minimum-filtered, blurred shadow map as blocker",
+            document: "T13: first document, section 2.3",
+            taps: format!("1 min + {} x 4", self.filter_taps),
+            stochastic: true,
+        }
+    }
+
+    fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
+        let map = shadow_map(recording, inputs);
+        let radius = region_radius(inputs.calibration, inputs.light);
+        let minimum = min_filter(recording, map, MinFilter { shrink: SHRINK, radius });
+        let blurred =
+            blur(recording, minimum, Blur { weights: BOX_3, labels: ["min-map-rows", "min-map-blurred"] });
+        let technique = Shade {
+            label: "chss-min",
+            own: OWN,
+            uses: vec![
+                shader::FETCH_BILINEAR,
+                shader::FILTER_DISC,
+                shader::KERNEL_VOGEL,
+                shader::PATTERN_IGN,
+            ],
+            constants: vec![("FILTER_TAPS", f64::from(self.filter_taps))],
+            source: Some(blurred),
+        };
+        shade(recording, inputs, technique);
+    }
+}
+
+/// Half-width of the region in reduced texels: "region of max penumbra size of course" (first
+/// document, 2.3). The demo's is 2; light-matched, the cone from the farthest receiver that
+/// matters, one at the region's centre, to the nearest blocker.
+fn region_radius(calibration: Calibration, light: &LightMap) -> u32 {
+    let gap = (light.eye_distance - light.nearest_blocker).max(0.0);
+    let radius_uv = match (calibration, light.kind) {
+        (Calibration::AsPrinted, _) => PRINTED_RADIUS_UV as f32,
+        (Calibration::LightMatched, LightKind::Sun) => gap * light.light_size * light.scale,
+        (Calibration::LightMatched, LightKind::Local) => {
+            light.light_size * gap / (light.eye_distance * light.nearest_blocker.max(1e-4)) * light.scale
+        }
+    };
+    let texels = radius_uv * light.texels as f32 / SHRINK as f32;
+    (texels.ceil() as u32).clamp(2, 64)
+}

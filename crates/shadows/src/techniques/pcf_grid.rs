@@ -1,0 +1,37 @@
+//! T3: comparisons on a square grid of texels.
+
+use crate::shader::Fragment;
+use crate::stages::{Shade, shade};
+use crate::{Calibration, Info, Inputs, Recording, Technique};
+
+const OWN: Fragment = Fragment::new("pcf_grid", include_str!("pcf_grid.wgsl"));
+
+/// Percentage-closer filtering on a grid.
+pub(crate) struct PcfGrid {
+    /// Taps per side.
+    pub(crate) side: u32,
+}
+
+impl Technique for PcfGrid {
+    fn info(&self) -> Info {
+        Info {
+            title: "PCF: the mean of comparisons on a square grid of fixed size",
+            document: "T3: first document, figure 2; second and fourth document",
+            taps: (self.side * self.side).to_string(),
+            stochastic: false,
+        }
+    }
+
+    fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
+        let step_texels = match inputs.calibration {
+            Calibration::AsPrinted => 1.0,
+            Calibration::LightMatched => 0.0,
+        };
+        let constants = vec![("GRID_SIDE", f64::from(self.side)), ("GRID_STEP_TEXELS", step_texels)];
+        shade(
+            recording,
+            inputs,
+            Shade { label: "pcf-grid", own: OWN, uses: vec![], constants, source: None },
+        );
+    }
+}

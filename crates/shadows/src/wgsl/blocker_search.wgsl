@@ -1,0 +1,16 @@
+// Mean depth of the blockers in a disc (first seed document, listing 3); negative without any.
+override SEARCH_TAPS: u32;
+
+fn mean_blocker(s: ShadowPoint, radius_uv: f32, angle: f32) -> f32 {
+    var sum = 0.0;
+    var count = 0.0;
+    for (var i = 0u; i < SEARCH_TAPS; i++) {
+        let offset = radius_uv * kernel_tap(i, SEARCH_TAPS, angle);
+        let depth = map_depth(s.uv + offset);
+        if depth < reference_depth(s, offset) {
+            sum += depth;
+            count += 1.0;
+        }
+    }
+    return select(-1.0, sum / count, count > 0.0);
+}

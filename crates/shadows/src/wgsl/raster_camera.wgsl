@@ -1,0 +1,26 @@
+// What the camera sees: linear depth and the geometric normal turned towards the viewer.
+struct Varying {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world: vec3<f32>,
+    @location(1) @interpolate(flat) normal: vec3<f32>,
+    @location(2) depth: f32,
+}
+
+struct Surface {
+    @location(0) depth: f32,
+    @location(1) normal: vec4<f32>,
+}
+
+@vertex
+fn vertex(@location(0) position: vec3<f32>, @location(1) normal: vec3<f32>) -> Varying {
+    let clip = globals.clip_from_world * vec4(position, 1.0);
+    // A perspective projection's w is the depth along the viewing direction.
+    return Varying(clip, position, normal, clip.w);
+}
+
+@fragment
+fn fragment(in: Varying) -> Surface {
+    let to_eye = globals.world_from_camera[3].xyz - in.world;
+    let normal = select(-in.normal, in.normal, dot(in.normal, to_eye) >= 0.0);
+    return Surface(in.depth, vec4(normal, 0.0));
+}
