@@ -1,1 +1,26 @@
-//! stub
+//! Ground truth: what a shadow technique is compared with.
+//!
+//! A [`Tracer`] casts its own camera rays ([`Tracer::primary`]) and finds, at surface points, the
+//! unoccluded fraction of an area light ([`Tracer::truth`]) in two ways that must agree: plain rays
+//! through obvhs (the arbiter) and shafts (fast). [`Cache`] keeps results on disk by content.
+//!
+//! Deliberately absent: the real-time pipeline. This crate never sees `umbrage-shadows`, so that a
+//! wrong matrix in either shows as disagreement. It prints nothing and reads neither the
+//! environment nor the clock.
+
+mod aim;
+mod error;
+mod owen;
+mod primary;
+mod rays;
+mod receiver;
+mod samples;
+mod shafts;
+mod surfaces;
+mod tracer;
+mod truth;
+
+pub use error::ReferenceError;
+pub use primary::{Points, PrimaryHits};
+pub use tracer::Tracer;
+pub use truth::{GroundTruth, Method, TruthSettings};

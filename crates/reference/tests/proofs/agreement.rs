@@ -1,0 +1,74 @@
+//! The two ways to the truth, against each other: same samples, same answer.
+
+use crate::common::*;
+use glam::Vec3;
+use umbrage_reference::{GroundTruth, Method, Points, Tracer};
+use umbrage_scene::AreaLight;
+
+/// Four kinds of light, a few metres up.
+fn lights() -> [AreaLight; 4] {
+    let direction = Vec3::new(0.4, 1.0, 0.3).normalize();
+    [
+        AreaLight::Sun { direction_to_light: direction, angular_diameter_radians: 0.08 },
+        AreaLight::Disk { centre: direction * 6.0, normal: direction, radius_world: 0.5 },
+        AreaLight::Rect { centre: direction * 6.0, half_u: Vec3::X * 0.5, half_v: Vec3::Z * 0.3 },
+        AreaLight::Sphere { centre: direction * 6.0, radius_world: 0.5 },
+    ]
+}
+
+fn both(tracer: &Tracer, points: &Points, light: &AreaLight) -> [GroundTruth; 2] {
+    [Method::Rays, Method::Shafts].map(|method| tracer.truth(points, light, &settings(128, method)))
+}
+
+/// Samples, of 256, that differ at each point.
+fn differences([rays, shafts]: &[GroundTruth; 2]) -> Vec<u32> {
+    assert_eq!(rays.facing, shafts.facing);
+    let samples = rays.samples as f32;
+    rays.mean.iter().zip(&shafts.mean).map(|(a, b)| ((a - b).abs() * samples).round() as u32).collect()
+}
+
+/// The rays' samples are f64 crossings, the shafts' are f32 forms: a sample differs where a
+/// silhouette passes within about 2^-22 of it (of the light's width). A silhouette as long as the
+/// light sweeps 256 * 2^-21 samples: one in 8,000 points for each silhouette, and 4 samples at one
+/// point is beyond chance. A wrong sign, plane or candidate list gives tens of samples.
+fn assert_ties_only(what: &str, pair: &[GroundTruth; 2]) {
+    let differing = differences(pair);
+    let points = differing.len();
+    let (count, worst) =
+        (differing.iter().filter(|&&d| d > 0).count(), differing.iter().max().copied().unwrap_or(0));
+    let partial = pair[0].mean.iter().filter(|&&m| m > 0.0 && m < 1.0).count();
+    assert!(partial > points / 50, "{what}: only {partial} of {points} points are in a penumbra");
+    assert!(count <= points / 100 && worst <= 3, "{what}: {count} of {points} differ, by up to {worst}");
+}
+
+#[test]
+fn blocks_on_a_floor() {
+    let mut triangles = floor(20.0).to_vec();
+    let mut random = Random(3);
+    for _ in 0..40 {
+        let centre = random.vector() * Vec3::new(5.0, 1.0, 5.0) + Vec3::Y * 1.2;
+        triangles.extend(block(centre, Vec3::new(0.3, 0.2, 0.4)));
+    }
+    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let points = tracer.primary(&view(Vec3::new(0.0, 3.0, 8.0), Vec3::ZERO, [96, 54])).points();
+    for light in lights() {
+        assert_ties_only(&format!("{light:?}"), &both(&tracer, &points, &light));
+    }
+}
+
+/// Triangles everywhere, also behind the light and through it.
+#[test]
+fn triangle_soup() {
+    let mut random = Random(4);
+    let triangles: Vec<[Vec3; 3]> = (0..600)
+        .map(|_| {
+            let centre = random.vector() * 8.0;
+            [0, 1, 2].map(|_| centre + random.vector() * 0.6)
+        })
+        .collect();
+    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let points = tracer.primary(&view(Vec3::new(0.0, 1.0, 12.0), Vec3::ZERO, [96, 54])).points();
+    for light in lights() {
+        assert_ties_only(&format!("{light:?}"), &both(&tracer, &points, &light));
+    }
+}

@@ -1,0 +1,4 @@
+//! Proofs of ground truth: what must hold whoever rewrites the tracer.
+
+mod agreement;
+mod common;
