@@ -3,63 +3,109 @@
 use crate::shader::{self, Fragment};
 use crate::{Calibration, Inputs, LightKind, LightMap};
 
+/// What is subtracted from every compared depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ConstantBias {
+    /// Metres.
+    World(f64),
+    /// A fraction of the light's distance from the shadow region's centre.
+    PerDistance(f64),
+}
+
+/// Whether taps are compared with the receiver's plane or with its depth alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ReceiverPlane {
+    /// The receiver's depth serves every tap.
+    Off,
+    /// The plane's depth at each texel centre.
+    On {
+        /// Steepest plane that is followed, metres of depth per metre across.
+        max_slope: f64,
+    },
+}
+
+/// The three kinds of bias.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bias {
+    /// Subtracted from every compared depth.
+    pub constant: ConstantBias,
+    /// Receivers are moved along their normal by this many texels times the sine between normal
+    /// and light.
+    pub normal_offset_texels: f64,
+    /// Whether taps follow the receiver's plane.
+    pub receiver_plane: ReceiverPlane,
+}
+
 /// The first document's demo: largest kernel radius in map widths (TECHNIQUES section 2).
 pub(crate) const PRINTED_RADIUS_UV: f64 = 0.002;
 
-/// The demo's constant bias over its light's distance: 2 units at 500.
-const PRINTED_BIAS_PER_DISTANCE: f64 = 0.004;
+impl Calibration {
+    /// The bias of this calibration.
+    pub fn default_bias(self) -> Bias {
+        match self {
+            // The demo's constant: 2 units where the light stands 500 away.
+            Self::AsPrinted => Bias {
+                constant: ConstantBias::PerDistance(0.004),
+                normal_offset_texels: 0.0,
+                receiver_plane: ReceiverPlane::Off,
+            },
+            // f32 depth loses micrometres over tens of metres; 1 mm is the engines' usual constant.
+            // 87 degrees: beyond, one texel spans more depth than most blockers are away.
+            Self::LightMatched => Bias {
+                constant: ConstantBias::World(0.001),
+                normal_offset_texels: 0.0,
+                receiver_plane: ReceiverPlane::On { max_slope: 20.0 },
+            },
+        }
+    }
+}
 
-/// Light-matched: what f32 depth loses over tens of metres is micrometres; 1 mm is a surface's
-/// own roughness and the engines' usual constant.
-const MATCHED_BIAS_WORLD: f64 = 0.001;
+impl Bias {
+    /// The constant part in metres.
+    pub fn constant_world(&self, light: &LightMap) -> f64 {
+        match self.constant {
+            ConstantBias::World(metres) => metres,
+            ConstantBias::PerDistance(fraction) => fraction * f64::from(light.eye_distance),
+        }
+    }
 
-/// Light-matched: cap of the static part of the receiver-plane bias.
-const STATIC_BIAS_CAP_WORLD: f64 = 0.01;
+    /// What a scorecard says about it.
+    pub fn describe(&self) -> String {
+        let constant = match self.constant {
+            ConstantBias::World(metres) => format!("constant {metres} m"),
+            ConstantBias::PerDistance(fraction) => format!("constant {fraction} of the light's distance"),
+        };
+        let plane = match self.receiver_plane {
+            ReceiverPlane::Off => "receiver plane off".to_string(),
+            ReceiverPlane::On { max_slope } => {
+                format!("receiver plane at texel centres, slope up to {max_slope}")
+            }
+        };
+        format!("{constant}; normal offset {} texels; {plane}", self.normal_offset_texels)
+    }
+}
 
-/// Light-matched: steepest receiver plane that is followed, 80 degrees.
-const MAX_SLOPE: f64 = 5.67;
-
-/// The slots that light and calibration fill, with the constants they need.
+/// The slots that light, calibration and bias fill, with the constants they need.
 pub(crate) fn slots(inputs: &Inputs<'_>) -> (Vec<Fragment>, Vec<(&'static str, f64)>) {
     let light = match inputs.light.kind {
         LightKind::Sun => shader::LIGHT_SUN,
         LightKind::Local => shader::LIGHT_LOCAL,
     };
-    let (law, bias) = match inputs.calibration {
-        Calibration::AsPrinted => (shader::LAW_SQUARED, shader::BIAS_CONSTANT),
-        Calibration::LightMatched => (shader::LAW_LIGHT, shader::BIAS_RECEIVER_PLANE),
+    let law = match inputs.calibration {
+        Calibration::AsPrinted => shader::LAW_SQUARED,
+        Calibration::LightMatched => shader::LAW_LIGHT,
+    };
+    let (bias, max_slope) = match inputs.bias.receiver_plane {
+        ReceiverPlane::Off => (shader::BIAS_CONSTANT, 0.0),
+        ReceiverPlane::On { max_slope } => (shader::BIAS_RECEIVER_PLANE, max_slope),
     };
     let constants = vec![
-        ("NORMAL_OFFSET_TEXELS", 0.0),
-        ("MAX_SLOPE", MAX_SLOPE),
-        ("CONSTANT_BIAS_WORLD", constant_bias_world(inputs.calibration, inputs.light)),
-        ("STATIC_BIAS_CAP_WORLD", STATIC_BIAS_CAP_WORLD),
+        ("NORMAL_OFFSET_TEXELS", inputs.bias.normal_offset_texels),
+        ("MAX_SLOPE", max_slope),
+        ("CONSTANT_BIAS_WORLD", inputs.bias.constant_world(inputs.light)),
         ("FILTER_RADIUS_UV", PRINTED_RADIUS_UV),
     ];
     (vec![light, law, bias], constants)
-}
-
-/// Constant depth bias in metres.
-pub(crate) fn constant_bias_world(calibration: Calibration, light: &LightMap) -> f64 {
-    match calibration {
-        Calibration::AsPrinted => PRINTED_BIAS_PER_DISTANCE * f64::from(light.eye_distance),
-        Calibration::LightMatched => MATCHED_BIAS_WORLD,
-    }
-}
-
-/// What a scorecard says about the three kinds of bias.
-pub(crate) fn describe_bias(calibration: Calibration) -> String {
-    match calibration {
-        Calibration::AsPrinted => {
-            format!(
-                "constant {PRINTED_BIAS_PER_DISTANCE} of the light's distance; normal offset 0; receiver plane off"
-            )
-        }
-        Calibration::LightMatched => format!(
-            "constant {MATCHED_BIAS_WORLD} m; normal offset 0; receiver plane on (slope up to {MAX_SLOPE}, static part up to \
-             {STATIC_BIAS_CAP_WORLD} m)"
-        ),
-    }
 }
 
 /// What a scorecard says about search radius and kernel cap.
@@ -67,10 +113,11 @@ pub(crate) fn describe_kernels(calibration: Calibration) -> String {
     match calibration {
         Calibration::AsPrinted => format!(
             "kernel radius at most {PRINTED_RADIUS_UV} map widths, law saturate(80 ((z-b)/b)^2); search radius the same \
-             times the search scale; radius = the disc's outermost tap circle"
+             times the search scale; radius = that of the disc in which the taps lie"
         ),
-        Calibration::LightMatched => "kernel radius = the light's cone at the blocker's depth; search radius = the cone at the \
-             nearest geometry's depth times the search scale, which is also the cap; radius = the disc's outermost tap circle"
+        Calibration::LightMatched => "kernel radius = the light's cone at the blocker's depth; search radius = the cone at \
+             the nearest geometry's depth times the search scale; cap = the search radius; radius = that of the disc in \
+             which the taps lie"
             .to_string(),
     }
 }

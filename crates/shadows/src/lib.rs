@@ -15,6 +15,7 @@ mod stages;
 mod technique;
 mod techniques;
 
+pub use calibration::{Bias, ConstantBias, ReceiverPlane};
 pub use error::ShadowError;
 pub use gpu::{AdapterChoice, AdapterDescription, Gpu, Timing, adapters};
 pub use layout::Globals;

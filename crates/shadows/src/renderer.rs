@@ -1,7 +1,7 @@
 //! A scene on a graphics adapter: masks for frames, values for anchors, intermediate targets.
 
 use crate::layout::{Anchor, Vertex};
-use crate::{Gpu, Info, Inputs, LightMap, Recording, Seeding, ShadowError, Timing, VariantId};
+use crate::{Bias, Gpu, Info, Inputs, LightMap, Recording, Seeding, ShadowError, Timing, VariantId};
 use crate::{Receivers, stages};
 use glam::Vec3;
 use umbrage_frame::{Anchors, Gbuffer, Image, View};
@@ -14,6 +14,7 @@ pub struct Renderer<'a> {
     map_texels: u32,
     geometry_key: u64,
     light_map: Option<(AreaLight, LightMap)>,
+    bias: Option<Bias>,
 }
 
 /// A variant's answer at each receiver.
@@ -59,7 +60,12 @@ impl<'a> Renderer<'a> {
         }
         let vertices = flat_vertices(scene);
         let geometry_key = gpu.upload_scene(&vertices)?;
-        Ok(Self { gpu, scene, map_texels, geometry_key, light_map: None })
+        Ok(Self { gpu, scene, map_texels, geometry_key, light_map: None, bias: None })
+    }
+
+    /// Replaces the calibrations' own bias, for curves over it.
+    pub fn set_bias(&mut self, bias: Bias) {
+        self.bias = Some(bias);
     }
 
     /// The projection of the light's map.
@@ -146,6 +152,7 @@ impl<'a> Renderer<'a> {
             view,
             light: &map,
             calibration: crate::Calibration::LightMatched,
+            bias: crate::Calibration::LightMatched.default_bias(),
             receivers: Receivers::Frame,
             seeding: Seeding::Frozen,
             geometry_key: self.geometry_key,
@@ -168,6 +175,7 @@ impl<'a> Renderer<'a> {
             view: job.view,
             light: &map,
             calibration: job.variant.calibration,
+            bias: self.bias.unwrap_or(job.variant.calibration.default_bias()),
             receivers: job.receivers,
             seeding: job.seeding,
             geometry_key: self.geometry_key,
@@ -212,6 +220,7 @@ impl VariantId {
             view: &view,
             light: &map,
             calibration: self.calibration,
+            bias: self.calibration.default_bias(),
             receivers: Receivers::Frame,
             seeding: Seeding::Fresh,
             geometry_key: 0,
@@ -223,7 +232,7 @@ impl VariantId {
 
     /// The three kinds of bias, in words.
     pub fn bias(&self) -> String {
-        crate::calibration::describe_bias(self.calibration)
+        self.calibration.default_bias().describe()
     }
 
     /// Search radius, kernel cap and radius convention, in words.

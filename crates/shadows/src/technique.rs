@@ -1,6 +1,6 @@
 //! What a technique is, and how one is chosen and told what to shade.
 
-use crate::{Globals, LightMap, Recording, VARIANTS};
+use crate::{Bias, Globals, LightMap, Recording, VARIANTS};
 use umbrage_frame::View;
 
 /// An algorithm at one typed setting. Implemented by the settings of each technique's own file.
@@ -111,6 +111,8 @@ pub struct Inputs<'a> {
     pub light: &'a LightMap,
     /// Which kernels.
     pub calibration: Calibration,
+    /// What keeps surfaces from shadowing themselves.
+    pub bias: Bias,
     /// What is shaded.
     pub receivers: Receivers,
     /// How patterns vary.

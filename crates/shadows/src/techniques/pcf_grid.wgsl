@@ -13,8 +13,7 @@ fn shade(r: Receiver) -> f32 {
     var lit = 0.0;
     for (var y = 0u; y < GRID_SIDE; y++) {
         for (var x = 0u; x < GRID_SIDE; x++) {
-            let offset = (vec2(f32(x), f32(y)) - half_side) * step_uv;
-            lit += lit_nearest(s.uv + offset, reference_depth(s, offset));
+            lit += lit_nearest(s, (vec2(f32(x), f32(y)) - half_side) * step_uv);
         }
     }
     return lit / f32(GRID_SIDE * GRID_SIDE);

@@ -5,10 +5,9 @@ fn mean_blocker(s: ShadowPoint, radius_uv: f32, angle: f32) -> f32 {
     var sum = 0.0;
     var count = 0.0;
     for (var i = 0u; i < SEARCH_TAPS; i++) {
-        let offset = radius_uv * kernel_tap(i, SEARCH_TAPS, angle);
-        let depth = map_depth(s.uv + offset);
-        if depth < reference_depth(s, offset) {
-            sum += depth;
+        let pair = nearest_pair(s, radius_uv * kernel_tap(i, SEARCH_TAPS, angle));
+        if pair.x < pair.y {
+            sum += pair.x;
             count += 1.0;
         }
     }

@@ -5,7 +5,7 @@ fn filter_disc(s: ShadowPoint, radius_uv: f32, angle: f32) -> f32 {
     var lit = 0.0;
     for (var i = 0u; i < FILTER_TAPS; i++) {
         let offset = radius_uv * kernel_tap(i, FILTER_TAPS, angle);
-        lit += lit_bilinear(s.uv + offset, reference_depth(s, offset));
+        lit += lit_bilinear(s, offset);
     }
     return lit / f32(FILTER_TAPS);
 }

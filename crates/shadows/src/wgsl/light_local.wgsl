@@ -35,11 +35,6 @@ fn plane_depth(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
     return 1.0 / max(1.0 / s.depth + dot(s.slope, offset_uv), 1e-6);
 }
 
-// Most that the plane's depth changes over a texel's diagonal step.
-fn plane_texel_depth(s: ShadowPoint) -> f32 {
-    return (abs(s.slope.x) + abs(s.slope.y)) * s.depth * s.depth / f32(globals.map_size);
-}
-
 // Radius of the cone from a receiver to the light's disc where it passes the blocker's depth, in
 // map widths at that depth: R (z - b) / z across, divided by b.
 fn true_radius_uv(receiver: f32, blocker: f32) -> f32 {

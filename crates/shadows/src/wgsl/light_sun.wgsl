@@ -26,11 +26,6 @@ fn plane_depth(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
     return s.depth + dot(s.slope, offset_uv);
 }
 
-// Most that the plane's depth changes over a texel's diagonal step.
-fn plane_texel_depth(s: ShadowPoint) -> f32 {
-    return (abs(s.slope.x) + abs(s.slope.y)) / f32(globals.map_size);
-}
-
 // Radius of the cone from a receiver to the light's disc where it passes the blocker's depth:
 // for a straight edge parallel to the map this kernel has the true penumbra's profile.
 fn true_radius_uv(receiver: f32, blocker: f32) -> f32 {

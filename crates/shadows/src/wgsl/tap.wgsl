@@ -1,4 +1,5 @@
-// Reading the shadow map. Outside it everything is lit.
+// Reading and comparing the shadow map. Outside it everything is lit. References are taken at
+// texel centres, where the map holds exact depths: a plane never shadows itself then.
 @group(0) @binding(1) var shadow_map: texture_2d<f32>;
 @group(0) @binding(8) var nearest: sampler;
 
@@ -6,30 +7,45 @@ fn inside_map(uv: vec2<f32>) -> bool {
     return all(uv >= vec2(0.0)) && all(uv < vec2(1.0));
 }
 
-// Depth of the texel that holds this place; far away outside the map.
-fn map_depth(uv: vec2<f32>) -> f32 {
+// The nearest texel's depth (far away outside the map), and the receiver's reference there.
+fn nearest_pair(s: ShadowPoint, offset_uv: vec2<f32>) -> vec2<f32> {
+    let uv = s.uv + offset_uv;
     if !inside_map(uv) {
-        return 3.0e38;
+        return vec2(3.0e38, 0.0);
     }
-    return textureLoad(shadow_map, vec2<u32>(uv * f32(globals.map_size)), 0).x;
+    let size = f32(globals.map_size);
+    let texel = floor(uv * size);
+    let depth = textureLoad(shadow_map, vec2<u32>(texel), 0).x;
+    return vec2(depth, reference_depth(s, (texel + 0.5) / size - s.uv));
 }
 
-fn lit_nearest(uv: vec2<f32>, reference: f32) -> f32 {
-    return select(0.0, 1.0, reference <= map_depth(uv));
+fn lit_nearest(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
+    let pair = nearest_pair(s, offset_uv);
+    return select(0.0, 1.0, pair.y <= pair.x);
 }
 
 // Four compares, bilinearly weighted in full precision: samplers that do this keep 8 bits of the
 // weights, differently on each adapter.
-fn lit_bilinear(uv: vec2<f32>, reference: f32) -> f32 {
+fn lit_bilinear(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
+    let uv = s.uv + offset_uv;
     if !inside_map(uv) {
         return 1.0;
     }
-    let place = uv * f32(globals.map_size) - 0.5;
+    let size = f32(globals.map_size);
+    let place = uv * size - 0.5;
     let base = floor(place);
     let weight = place - base;
     // Gathered from the corner that the four texels share: a driver's own rounding of `uv` could
     // pick a neighbouring footprint.
-    let depths = textureGather(0, shadow_map, nearest, (base + 1.0) / f32(globals.map_size));
-    let lit = select(vec4(0.0), vec4(1.0), vec4(reference) <= depths);
+    let depths = textureGather(0, shadow_map, nearest, (base + 1.0) / size);
+    let first = (base + 0.5) / size - s.uv;
+    let step = 1.0 / size;
+    let references = vec4(
+        reference_depth(s, first + vec2(0.0, step)),
+        reference_depth(s, first + vec2(step, step)),
+        reference_depth(s, first + vec2(step, 0.0)),
+        reference_depth(s, first),
+    );
+    let lit = select(vec4(0.0), vec4(1.0), references <= depths);
     return mix(mix(lit.w, lit.z, weight.x), mix(lit.x, lit.y, weight.x), weight.y);
 }
