@@ -5,9 +5,16 @@
 //! time. Deliberately absent: rendering, measuring, the clock and the network. What is not in the
 //! folder is not on the page.
 
+mod book;
 mod card;
 mod error;
+mod numbers;
+mod page;
+mod picture;
+mod plot;
 mod store;
+mod tables;
+mod words;
 mod write;
 
 pub use card::{

@@ -1,6 +1,10 @@
 //! From a stored run to its pages.
 
+use crate::book::make_book;
+use crate::error::write_whole;
+use crate::page::page;
 use crate::store::{read_index, scorecard_path};
+use crate::tables::{junit, scores_csv, summary};
 use crate::{ReportError, Scorecard};
 use std::path::{Path, PathBuf};
 
@@ -20,12 +24,15 @@ pub struct Written {
     /// The page.
     pub index: PathBuf,
     /// Its size in bytes.
-    pub index_bytes: u64,
+    pub index_bytes: usize,
     /// Every file: the page first, then the tables.
     pub files: Vec<PathBuf>,
-    /// What the user should know: a page above 10 MB, pictures that are missing.
+    /// What the user should know: a page above 10 MB, a run without pictures.
     pub warnings: Vec<String>,
 }
+
+/// Above this browsers and mail programs begin to complain.
+const LARGE_BYTES: usize = 10_000_000;
 
 /// Makes `index.html`, `scores.csv`, `summary.md` and `junit.xml` from a stored run. Can be done
 /// again at any time; existing pages are replaced.
@@ -35,7 +42,30 @@ pub struct Written {
 /// be written.
 pub fn write_report(run: &Path, layout: Layout) -> Result<Written, ReportError> {
     let card = Scorecard::load(&scorecard_path(run))?;
-    let _ = (read_index(run)?, card, layout);
-    let index = run.join("index.html");
-    Ok(Written { index_bytes: 0, files: vec![index.clone()], index, warnings: Vec::new() })
+    let pictures = read_index(run)?;
+    let book = make_book(run, &card, &pictures, layout)?;
+    let html = page(&card, &book);
+    let mut warnings = Vec::new();
+    if pictures.windows.is_empty() {
+        warnings.push("the run has no pictures: the page shows numbers only".to_string());
+    }
+    if html.len() > LARGE_BYTES {
+        let size = html.len() as f64 / 1e6;
+        warnings
+            .push(format!("index.html has {size:.1} MB; write its pictures beside it to make it smaller"));
+    }
+    let index_bytes = html.len();
+    let files = [
+        ("index.html", html),
+        ("scores.csv", scores_csv(&card)),
+        ("summary.md", summary(&card)),
+        ("junit.xml", junit(&card)),
+    ];
+    let mut written = Vec::new();
+    for (name, text) in files {
+        let path = run.join(name);
+        write_whole(&path, text.as_bytes())?;
+        written.push(path);
+    }
+    Ok(Written { index: run.join("index.html"), index_bytes, files: written, warnings })
 }

@@ -1,0 +1,140 @@
+//! Numbers as a reader sees them: three significant digits, no more than the interval carries,
+//! the power of ten in the header.
+
+use umbrage_metrics::Score;
+
+/// A power of ten, a multiple of three, shared by a column or an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Power(i32);
+
+impl Power {
+    /// No power: numbers as they are.
+    pub(crate) const ONE: Self = Self(0);
+
+    /// The one that brings the largest magnitude between 1 and 1000.
+    pub(crate) fn of(values: impl Iterator<Item = f64>) -> Self {
+        let largest = values.map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
+        // Rounding to three digits may carry: 999.7 reads 1000.
+        let exponent = if largest < 1e-30 { 0.0 } else { (largest * 1.0005).log10() };
+        // Numbers that read well as they are stay so.
+        if (-1.0..3.0).contains(&exponent) { Self(0) } else { Self((exponent / 3.0).floor() as i32 * 3) }
+    }
+
+    /// The number to print.
+    pub(crate) fn scaled(self, value: f64) -> f64 {
+        value / 10f64.powi(self.0)
+    }
+
+    /// For a header: "10⁻⁶", empty for 1.
+    pub(crate) fn label(self) -> String {
+        if self.0 == 0 { String::new() } else { format!("10{}", superscript(self.0)) }
+    }
+}
+
+fn superscript(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digit = |c: char| c.to_digit(10).map_or('⁻', |d| DIGITS[d as usize]);
+    exponent.to_string().chars().map(digit).collect()
+}
+
+/// Half the width of the interval.
+pub(crate) fn half_width(score: Score) -> f64 {
+    0.5 * (score.high - score.low).abs()
+}
+
+/// Three significant digits: "0.0123", "1.84", "335", "−2.10"; zero is "0".
+pub(crate) fn number(value: f64) -> String {
+    fixed(value, decimals(value))
+}
+
+/// As [`number`], with the power of ten written out when it does not read well without: "4.20×10⁻⁶".
+pub(crate) fn free_number(value: f64) -> String {
+    let power = Power::of(std::iter::once(value));
+    if power == Power::ONE || value == 0.0 {
+        return number(value);
+    }
+    format!("{}×{}", number(power.scaled(value)), power.label())
+}
+
+/// A score with a half-width: "1.84 ± 0.12". An exact one (no width) is the number alone.
+pub(crate) fn with_interval(score: Score, power: Power) -> (String, Option<String>) {
+    let (value, half) = (power.scaled(score.value), power.scaled(half_width(score)));
+    if half == 0.0 || half.abs() < 1e-9 * value.abs() {
+        return (number(value), None);
+    }
+    // A digit beyond the second of the half-width says nothing.
+    let places = decimals(value).min(decimals(half) - 1).clamp(0, 9);
+    (fixed(value, places), Some(fixed(half, decimals(half) - 1)))
+}
+
+/// As [`with_interval`], in one string and with the power written out.
+pub(crate) fn free_score(score: Score) -> String {
+    let power = Power::of([score.value, score.low, score.high].into_iter());
+    let label = power.label();
+    match with_interval(score, power) {
+        (value, None) if label.is_empty() => value,
+        (value, Some(half)) if label.is_empty() => format!("{value} ± {half}"),
+        (value, None) => format!("{value}×{label}"),
+        (value, Some(half)) => format!("({value} ± {half})×{label}"),
+    }
+}
+
+/// A share of one as a percentage: "97.2 %".
+pub(crate) fn percent(share: f64) -> String {
+    format!("{} %", number(100.0 * share))
+}
+
+/// Decimals that show three significant digits.
+fn decimals(value: f64) -> i32 {
+    if value.abs() < 1e-30 {
+        return 0;
+    }
+    // 9.996 has to be read as 10.0: one decimal less than 9.99.
+    let exponent = (value.abs() * 1.000_5).log10().floor() as i32;
+    (2 - exponent).clamp(0, 12)
+}
+
+/// With a true minus sign, and no minus before a zero.
+fn fixed(value: f64, decimals: i32) -> String {
+    if value.abs() < 1e-30 {
+        return "0".into();
+    }
+    let text = format!("{:.*}", decimals.max(0) as usize, value);
+    let zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+    if zero { text.replace('-', "") } else { text.replace('-', "−") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn score(value: f64, half: f64) -> Score {
+        Score { value, low: value - half, high: value + half }
+    }
+
+    #[test]
+    fn three_significant_digits() {
+        let texts = [0.012_345, 1.843, 335.4, -2.1, 0.0, 12_345.0, 9.996, 1e-40].map(number);
+        assert_eq!(texts, ["0.0123", "1.84", "335", "−2.10", "0", "12345", "10.0", "0"]);
+    }
+
+    #[test]
+    fn digits_stop_where_the_interval_does() {
+        let text = |value, half| {
+            let (value, half) = with_interval(score(value, half), Power::ONE);
+            half.map_or(value.clone(), |h| format!("{value} ± {h}"))
+        };
+        assert_eq!(text(1.8432, 0.1234), "1.84 ± 0.12");
+        assert_eq!(text(-0.0003, 0.8), "0.00 ± 0.80");
+        assert_eq!(text(123.4, 25.0), "123 ± 25");
+        assert_eq!(text(3.0, 0.0), "3.00");
+    }
+
+    #[test]
+    fn powers_go_by_threes_and_stay_out_of_the_way() {
+        let label = |v: f64| Power::of(std::iter::once(v)).label();
+        assert_eq!([3.2e-6, 0.0421, 0.7, 12.0, 4.2e-4, 0.0].map(label), ["10⁻⁶", "10⁻³", "", "", "10⁻⁶", ""]);
+        assert_eq!(free_score(score(4.2e-6, 3e-7)), "(4.20 ± 0.30)×10⁻⁶");
+        assert_eq!(free_number(0.000_012_3), "12.3×10⁻⁶");
+    }
+}

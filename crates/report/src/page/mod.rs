@@ -1,0 +1,123 @@
+//! The page that people open: one file, no network, no handler in the markup.
+//!
+//! In the order of its questions: what was run, which one to take, how sure is that, where and
+//! when is it wrong, how to run it again, what the words mean.
+
+mod columns;
+mod definitions;
+mod head;
+mod provenance;
+mod scenes;
+mod table;
+
+use crate::Scorecard;
+use crate::book::Book;
+use crate::plot::{pareto, per_frame};
+use crate::words::answer;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+const STYLE: &str = include_str!("page.css");
+const SCRIPT: &str = include_str!("page.js");
+/// Nothing is loaded from anywhere; pictures come from the page or from the folder beside it.
+const POLICY: &str = "default-src 'none'; img-src data: file: 'self'; style-src 'unsafe-inline'; \
+                      script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+
+/// The whole page.
+pub(crate) fn page(card: &Scorecard, book: &Book) -> String {
+    let bars = ["shadow", "error", "swim"].iter().zip(&book.bars);
+    let bars: String =
+        bars.map(|(name, uri)| format!(".bar.{name}{{background-image:url({uri})}}")).collect();
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (card.provenance.suite) " · Umbrage" }
+                style { (PreEscaped(STYLE)) (PreEscaped(bars)) }
+            }
+            body {
+                (head::head(card))
+                main {
+                    (answers(card))
+                    (table::section(card))
+                    (cost(card))
+                    (scenes::section(card, book))
+                    (time(card))
+                    (provenance::section(card))
+                    (definitions::section(card))
+                }
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    }
+    .into_string()
+}
+
+fn answers(card: &Scorecard) -> Markup {
+    html! {
+        section #answer {
+            h2 { "The answer" }
+            ul.answer { @for sentence in answer(card) { li { (sentence) } } }
+        }
+    }
+}
+
+fn cost(card: &Scorecard) -> Markup {
+    let note = card.overall.iter().find_map(|o| o.cost_note.as_deref()).unwrap_or("needs a GPU");
+    let plot = if card.provenance.adapter.is_cpu { None } else { pareto(card) };
+    html! {
+        section #cost {
+            h2 { "Error against cost" }
+            @if let Some(plot) = plot {
+                p.lede {
+                    "Down and to the left is better. The line joins the variants that nothing cheaper beats; "
+                    "a larger mark swims more; a hollow mark is as printed, a solid one light-matched."
+                }
+                div.wide { (plot) }
+            } @else {
+                p.empty {
+                    "No plot: " (note) ". "
+                    @if card.provenance.adapter.is_cpu {
+                        "Times on " (card.provenance.adapter.name) " say how fast this processor imitates a GPU, not "
+                        "what a variant costs on one. Run the same command on a machine with a GPU to fill this in; "
+                        "the scores hardly depend on it."
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn time(card: &Scorecard) -> Markup {
+    html! {
+        section #time {
+            h2 { "Over time" }
+            p.lede {
+                "What each frame adds to SWIMMING. Light and scene stand still, so at a fixed point of a surface nothing "
+                "should change: a calm variant is a line at 0. Shaded: 95 % intervals. Dashed: as printed."
+            }
+            @for (index, window) in card.windows.iter().enumerate() {
+                h3 { (window.scene) " · " (window.path) " " span.muted { (window.speed) } }
+                @match per_frame(card, index) {
+                    Some(plot) => div.wide { (plot) },
+                    None => p.empty { (why_no_series(card, index)) },
+                }
+            }
+        }
+    }
+}
+
+fn why_no_series(card: &Scorecard, window: usize) -> String {
+    let card_of = &card.windows[window];
+    if card_of.anchors == 0 {
+        return "No anchors agreed in this view: check the camera.".into();
+    }
+    if card_of.frames < 2 {
+        return "Not measured: one frame only.".into();
+    }
+    let all = crate::words::Comparison { card, window: Some(window) };
+    format!("Not measured: {}.", all.reason("swimming").unwrap_or("no variant has a series"))
+}

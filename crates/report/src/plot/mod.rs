@@ -1,0 +1,13 @@
+//! Plots as inline SVG: no script, sharp in print, colours from the page's style sheet.
+
+mod axis;
+mod look;
+mod pareto;
+mod per_frame;
+mod strip;
+
+pub(crate) use axis::{Axis, Target};
+pub(crate) use look::{Look, swatch};
+pub(crate) use pareto::pareto;
+pub(crate) use per_frame::per_frame;
+pub(crate) use strip::strip;

@@ -1,0 +1,65 @@
+//! Names may hold anything; each format has its own way to say so.
+
+/// A field of RFC 4180: quoted when it has to be, quotes doubled.
+pub(super) fn csv(field: &str) -> String {
+    if field.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.into()
+    }
+}
+
+/// Text or an attribute of XML 1.0; characters that XML cannot hold at all are dropped.
+pub(super) fn xml(text: &str) -> String {
+    let legal = |c: &char| !matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}');
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars().filter(legal) {
+        match c {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '"' => escaped += "&quot;",
+            '\'' => escaped += "&apos;",
+            // Attributes would turn them into spaces.
+            '\n' | '\r' | '\t' => escaped += &format!("&#{};", c as u32),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// Text in a paragraph or a cell of Markdown: no markup, no links, no HTML, one line.
+pub(super) fn markdown(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '~' | '#' | '@' | '!' => {
+                escaped.push('\\');
+                escaped.push(c);
+            }
+            c if c.is_control() => escaped.push(' '),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HOSTILE: &str = "<script>alert(1)</script>&\"'";
+
+    #[test]
+    fn hostile_names_are_harmless_everywhere() {
+        assert_eq!(xml(HOSTILE), "&lt;script&gt;alert(1)&lt;/script&gt;&amp;&quot;&apos;");
+        assert_eq!(xml("a\u{0}\u{1b}b\n"), "ab&#10;");
+        assert_eq!(markdown(HOSTILE), "&lt;script&gt;alert(1)&lt;/script&gt;&amp;\"'");
+        assert_eq!(markdown("a|b\n[x](y)"), "a\\|b \\[x\\](y)");
+        assert_eq!(csv(HOSTILE), "\"<script>alert(1)</script>&\"\"'\"");
+        assert_eq!(csv("plain"), "plain");
+    }
+}

@@ -1,0 +1,90 @@
+//! `summary.md`: the answer and the table, for a CI step summary or a pull request.
+
+use super::escape::markdown;
+use crate::numbers::free_score;
+use crate::words::{Comparison, Sentence, Span, answer, plain_line};
+use crate::{Measured, Scorecard};
+
+/// Step summaries above 1 MiB are cut off entirely; room is left for what others write there.
+const MOST_BYTES: usize = 900 * 1024;
+
+/// Columns: metric id and head.
+const COLUMNS: [(&str, &str); 6] = [
+    ("error", "ERROR (RMSE)"),
+    ("swimming", "SWIMMING"),
+    ("noise", "noise"),
+    ("light_leak", "light leak"),
+    ("false_shadow", "false shadow"),
+    ("width_ratio", "width"),
+];
+
+pub(crate) fn summary(card: &Scorecard) -> String {
+    let sentences = answer(card);
+    let mut text = String::from("## Umbrage: ");
+    text += &markdown(&card.provenance.suite);
+    text += "\n\n";
+    for (i, sentence) in sentences.iter().enumerate() {
+        text += &match i {
+            0 => format!("**{}**\n\n", spans(sentence, false)),
+            _ => format!("- {}\n", spans(sentence, true)),
+        };
+    }
+    text += &table(card, MOST_BYTES - text.len().min(MOST_BYTES));
+    let p = &card.provenance;
+    let facts = format!(
+        "\n{} on {}, {}x{}, T = {}, S = {}. Intervals are 95 %. Everything else: [index.html](index.html).\n",
+        markdown(&format!("umbrage {}", p.tool_version)),
+        markdown(&p.adapter.name),
+        p.width,
+        p.height,
+        p.frames,
+        p.seeds,
+    );
+    text + &facts
+}
+
+/// Numbers in bold, unless all of it is.
+fn spans(sentence: &Sentence, emphasise: bool) -> String {
+    let part = |s: &Span| match s {
+        Span::Number(t) if emphasise => format!("**{}**", markdown(t)),
+        Span::Text(t) | Span::Number(t) | Span::Link(_, t) => markdown(t),
+    };
+    sentence.0.iter().map(part).collect()
+}
+
+/// As many rows as fit.
+fn table(card: &Scorecard, most_bytes: usize) -> String {
+    let all = Comparison { card, window: None };
+    let heads: Vec<&str> = COLUMNS.iter().map(|c| c.1).collect();
+    let mut text = format!(
+        "\n| variant | {} | GPU ms | |\n|---|{}---:|---|\n",
+        heads.join(" | "),
+        "---:|".repeat(COLUMNS.len())
+    );
+    for (v, variant) in card.variants.iter().enumerate() {
+        let mut cells = vec![markdown(&format!("{} ({})", variant.name, variant.calibration.label()))];
+        for (id, _) in COLUMNS {
+            cells.push(cell(all.scores(v).and_then(|s| s.get(id)), all.group(v, id)));
+        }
+        let cost = card.overall_of(v).and_then(|o| o.cost.as_ref());
+        cells.push(cost.map_or_else(|| "–".into(), |c| crate::numbers::number(c.frame_ms_median)));
+        cells.push(all.scores(v).map_or_else(|| "not measured".into(), |s| markdown(&plain_line(s))));
+        let row = format!("| {} |\n", cells.join(" | "));
+        if text.len() + row.len() > most_bytes {
+            return text + &format!("\n{} more variants are on the page.\n", card.variants.len() - v);
+        }
+        text += &row;
+    }
+    text
+}
+
+fn cell(measured: Option<&Measured>, letters: Option<&str>) -> String {
+    match measured {
+        Some(Measured::Score(score)) => {
+            let letters = letters.map(|l| format!(" {}", markdown(l))).unwrap_or_default();
+            markdown(&free_score(*score)) + &letters
+        }
+        Some(Measured::NotMeasured { not_measured }) => markdown(not_measured),
+        None => "–".into(),
+    }
+}

@@ -1,0 +1,13 @@
+//! What the scores say, in words: nothing that an interval does not carry.
+
+mod caption;
+mod compare;
+mod line;
+mod sentences;
+mod span;
+
+pub(crate) use caption::{error_caption, shadow_caption, swim_caption};
+pub(crate) use compare::{Comparison, is_still, is_unresolved};
+pub(crate) use line::plain_line;
+pub(crate) use sentences::answer;
+pub(crate) use span::{Sentence, Span, Target, full_name};
