@@ -5,8 +5,11 @@ use crate::{Scene, SceneError};
 use std::path::PathBuf;
 
 /// Name and text of each, in the order in which they are listed.
-const BUILTIN: [(&str, &str); 2] = [
+const BUILTIN: [(&str, &str); 5] = [
     ("edge-ladder", include_str!("../../../scenes/edge-ladder/scene.toml")),
+    ("thin-poles", include_str!("../../../scenes/thin-poles/scene.toml")),
+    ("stacked-blockers", include_str!("../../../scenes/stacked-blockers/scene.toml")),
+    ("oblique-floor", include_str!("../../../scenes/oblique-floor/scene.toml")),
     ("colonnade", include_str!("../../../scenes/colonnade/scene.toml")),
 ];
 

@@ -5,8 +5,11 @@
 mod colonnade;
 mod edge_ladder;
 mod mesh;
+mod oblique_floor;
+mod stacked_blockers;
 #[cfg(test)]
 mod tests;
+mod thin_poles;
 
 use crate::model::Model;
 use glam::{DVec2, DVec3};
@@ -19,6 +22,12 @@ use serde::{Deserialize, Serialize};
 pub enum Generator {
     /// Plates at .1, .3, 1, 3 and 10 m: penumbra width against gap, at three angles to the map.
     EdgeLadder,
+    /// Level and upright poles of 5 mm to 5 cm radius: blockers that a search misses.
+    ThinPoles,
+    /// Blockers above each other, and stairs under two plates: light leaks.
+    StackedBlockers,
+    /// A hundred columns on a wide floor: undersampling at grazing angles.
+    ObliqueFloor,
     /// A court with colonnades, drapes close to a wall and poles high above it.
     Colonnade,
 }
@@ -27,6 +36,9 @@ impl Generator {
     pub(crate) fn model(self) -> Model {
         match self {
             Self::EdgeLadder => edge_ladder::model(),
+            Self::ThinPoles => thin_poles::model(),
+            Self::StackedBlockers => stacked_blockers::model(),
+            Self::ObliqueFloor => oblique_floor::model(),
             Self::Colonnade => colonnade::model(),
         }
     }
