@@ -66,8 +66,7 @@ pub(crate) fn make_book(
     layout: Layout,
 ) -> Result<Book, ReportError> {
     let printer = Printer::new(run, layout)?;
-    let mut book =
-        Book { error_limit: round_up(largest(&index.variants, |v| v.error_p995)), ..Book::default() };
+    let mut book = Book { error_limit: error_limit(&index.variants), ..Book::default() };
     for (bar, ramp) in book.bars.iter_mut().zip([Ramp::Grey, Ramp::Signed, Ramp::Magnitude]) {
         *bar = data_uri(&png_of_bar(ramp)?);
     }
@@ -85,7 +84,7 @@ pub(crate) fn make_book(
     }
     for window in 0..card.windows.len() {
         let of_window: Vec<_> = index.variants.iter().filter(|v| v.window == window).cloned().collect();
-        book.swim_limits.insert(window, round_up(largest(&of_window, |v| v.swim_p995)));
+        book.swim_limits.insert(window, swim_limit(&of_window));
     }
     for stored in index.variants.iter().filter(|v| v.window < card.windows.len()) {
         book.add_variant(run, &printer, stored)?;
@@ -104,11 +103,12 @@ impl Book {
         let pictures = read_variant(run, window, variant)?;
         let swim_limit = self.swim_limits.get(&window).copied().unwrap_or(1.0);
         let planes = [
-            (Slot::Mask(variant), "shadow", &pictures.mask, Scale::SHADOW),
-            (Slot::Error(variant), "error", &pictures.error, Scale::error(self.error_limit)),
-            (Slot::Swim(variant), "swim", &pictures.swim, Scale::magnitude(swim_limit)),
+            (Slot::Mask(variant), "shadow", Some(&pictures.mask), Scale::SHADOW),
+            (Slot::Error(variant), "error", Some(&pictures.error), Scale::error(self.error_limit)),
+            (Slot::Swim(variant), "swim", pictures.swim.as_ref(), Scale::magnitude(swim_limit)),
         ];
         for (slot, kind, plane, scale) in planes {
+            let Some(plane) = plane else { continue };
             let name = format!("window-{window:02}-variant-{variant:02}-{kind}");
             let png = png_of(&name, plane, scale)?;
             self.shown.insert((window, slot), printer.print(&name, png, (plane.width(), plane.height()))?);
@@ -143,6 +143,15 @@ fn data_uri(png: &[u8]) -> String {
     format!("data:image/png;base64,{}", base64::encode(png))
 }
 
-fn largest(variants: &[StoredVariant], limit: impl Fn(&StoredVariant) -> f32) -> f32 {
-    variants.iter().map(limit).fold(0.0, f32::max)
+/// From the middle one of all pictures: a hard shadow is wrong by all of the light, and would leave
+/// the others pale. What lies beyond is clamped.
+fn error_limit(variants: &[StoredVariant]) -> f32 {
+    let mut limits: Vec<f32> = variants.iter().map(|v| v.error_p995).collect();
+    limits.sort_by(f32::total_cmp);
+    round_up(limits.get(limits.len() / 2).copied().unwrap_or(0.0)).min(1.0)
+}
+
+/// From the one that swims most: half of the variants may not swim at all.
+fn swim_limit(variants: &[StoredVariant]) -> f32 {
+    round_up(variants.iter().filter_map(|v| v.swim_p995).fold(0.0, f32::max))
 }

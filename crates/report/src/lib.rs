@@ -25,3 +25,11 @@ pub use card::{
 pub use error::ReportError;
 pub use store::{RunWriter, VariantPictures, WindowPictures};
 pub use write::{Layout, Written, write_report};
+
+// Unit tests read the same made-up run as the tests outside, which know this crate by its name.
+#[cfg(test)]
+extern crate self as umbrage_report;
+#[cfg(test)]
+#[expect(dead_code, reason = "unit tests need its scorecard only")]
+#[path = "../tests/fixture/mod.rs"]
+mod fixture;

@@ -20,6 +20,16 @@ impl Power {
         if (-1.0..3.0).contains(&exponent) { Self(0) } else { Self((exponent / 3.0).floor() as i32 * 3) }
     }
 
+    /// For one number in a sentence: decimals down to a thousandth, powers beyond.
+    fn in_text(value: f64) -> Self {
+        let size = value.abs();
+        if size < 1e-30 || (1e-3..1e5).contains(&size) {
+            return Self::ONE;
+        }
+        // From 0.1 to 100: 0.82×10⁻⁶ sits better beside 17.4×10⁻⁶ than 820×10⁻⁹ does.
+        Self(((size.log10() + 1.0) / 3.0).floor() as i32 * 3)
+    }
+
     /// The number to print.
     pub(crate) fn scaled(self, value: f64) -> f64 {
         value / 10f64.powi(self.0)
@@ -49,8 +59,8 @@ pub(crate) fn number(value: f64) -> String {
 
 /// As [`number`], with the power of ten written out when it does not read well without: "4.20×10⁻⁶".
 pub(crate) fn free_number(value: f64) -> String {
-    let power = Power::of(std::iter::once(value));
-    if power == Power::ONE || value == 0.0 {
+    let power = Power::in_text(value);
+    if power == Power::ONE {
         return number(value);
     }
     format!("{}×{}", number(power.scaled(value)), power.label())
@@ -63,13 +73,15 @@ pub(crate) fn with_interval(score: Score, power: Power) -> (String, Option<Strin
         return (number(value), None);
     }
     // A digit beyond the second of the half-width says nothing.
-    let places = decimals(value).min(decimals(half) - 1).clamp(0, 9);
-    (fixed(value, places), Some(fixed(half, decimals(half) - 1)))
+    let places = decimals(value).min(decimals(half) - 1).clamp(0, 12);
+    let shown = fixed(half, places);
+    let lost = shown.chars().all(|c| matches!(c, '0' | '.'));
+    (fixed(value, places), Some(if lost { fixed(half, decimals(half) - 2) } else { shown }))
 }
 
 /// As [`with_interval`], in one string and with the power written out.
 pub(crate) fn free_score(score: Score) -> String {
-    let power = Power::of([score.value, score.low, score.high].into_iter());
+    let power = Power::in_text(score.value.abs().max(half_width(score)));
     let label = power.label();
     match with_interval(score, power) {
         (value, None) if label.is_empty() => value,
@@ -77,6 +89,20 @@ pub(crate) fn free_score(score: Score) -> String {
         (value, None) => format!("{value}×{label}"),
         (value, Some(half)) => format!("({value} ± {half})×{label}"),
     }
+}
+
+/// A change in percent, as one would say it: "9 %", "0.6 %".
+pub(crate) fn spoken_percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    format!("{} %", fixed(percent, if percent.abs() < 1.95 { 1 } else { 0 }))
+}
+
+/// A whole number in groups of three: "104 311".
+pub(crate) fn count(value: u64) -> String {
+    let digits = value.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev();
+    let groups: Vec<String> = groups.map(|g| String::from_utf8_lossy(g).into_owned()).collect();
+    groups.join("\u{202f}")
 }
 
 /// A share of one as a percentage: "97.2 %".
@@ -128,6 +154,8 @@ mod tests {
         assert_eq!(text(-0.0003, 0.8), "0.00 ± 0.80");
         assert_eq!(text(123.4, 25.0), "123 ± 25");
         assert_eq!(text(3.0, 0.0), "3.00");
+        assert_eq!(text(0.0429, 0.000_75), "0.0429 ± 0.0008");
+        assert_eq!(text(123.0, 0.04), "123 ± 0.04", "a small half-width is not a zero");
     }
 
     #[test]
@@ -135,6 +163,10 @@ mod tests {
         let label = |v: f64| Power::of(std::iter::once(v)).label();
         assert_eq!([3.2e-6, 0.0421, 0.7, 12.0, 4.2e-4, 0.0].map(label), ["10⁻⁶", "10⁻³", "", "", "10⁻⁶", ""]);
         assert_eq!(free_score(score(4.2e-6, 3e-7)), "(4.20 ± 0.30)×10⁻⁶");
+        assert_eq!(free_score(score(0.0429, 0.000_75)), "0.0429 ± 0.0008");
+        assert_eq!(free_score(score(8.2e-7, 9.2e-7)), "(0.82 ± 0.92)×10⁻⁶");
         assert_eq!(free_number(0.000_012_3), "12.3×10⁻⁶");
+        assert_eq!([7, 1234, 1_104_311].map(count), ["7", "1\u{202f}234", "1\u{202f}104\u{202f}311"]);
+        assert_eq!([0.091, 0.0061, 0.0194].map(spoken_percent), ["9 %", "0.6 %", "1.9 %"]);
     }
 }

@@ -25,8 +25,8 @@ pub struct VariantPictures {
     pub mask: Image<f32>,
     /// Variant minus truth, -1 to 1.
     pub error: Image<f32>,
-    /// Root of the moving part per anchor (visibility), from 0.
-    pub swim: Image<f32>,
+    /// Root of the moving part per anchor (visibility), from 0; none when it was not measured.
+    pub swim: Option<Image<f32>>,
 }
 
 /// Fills the folder of a run, picture by picture, so that never more than one is in memory.
@@ -51,7 +51,7 @@ pub(crate) struct StoredVariant {
     pub(crate) window: usize,
     pub(crate) variant: usize,
     pub(crate) error_p995: f32,
-    pub(crate) swim_p995: f32,
+    pub(crate) swim_p995: Option<f32>,
 }
 
 const INDEX: &str = "index.json";
@@ -101,9 +101,10 @@ impl RunWriter {
         pictures: &VariantPictures,
     ) -> Result<(), ReportError> {
         let VariantPictures { mask, error, swim } = pictures;
-        let layers = [layer("visibility.V", mask), layer("error.V", error), layer("swim.V", swim)];
+        let mut layers = vec![layer("visibility.V", mask), layer("error.V", error)];
+        layers.extend(swim.as_ref().map(|swim| layer("swim.V", swim)));
         write_exr(&variant_path(&self.folder, window, variant), &layers)?;
-        let (error_p995, swim_p995) = (upper_percentile(error), upper_percentile(swim));
+        let (error_p995, swim_p995) = (upper_percentile(error), swim.as_ref().map(upper_percentile));
         self.index.variants.push(StoredVariant { window, variant, error_p995, swim_p995 });
         Ok(())
     }
@@ -164,7 +165,7 @@ pub(crate) fn read_variant(
     let path = variant_path(folder, window, variant);
     let mut layers = read_exr(&path)?;
     let mut take = |name| take(&mut layers, name, &path);
-    Ok(VariantPictures { mask: take("visibility.V")?, error: take("error.V")?, swim: take("swim.V")? })
+    Ok(VariantPictures { mask: take("visibility.V")?, error: take("error.V")?, swim: take("swim.V").ok() })
 }
 
 fn take(layers: &mut Vec<Layer>, name: &str, path: &Path) -> Result<Image<f32>, ReportError> {
@@ -213,9 +214,10 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut writer = RunWriter::create(folder.path()).expect("made");
         let ramp = Image::from_fn(9, 4, |x, y| if x == 0 { f32::NAN } else { x as f32 / 9.0 - y as f32 });
-        let pictures = VariantPictures { mask: ramp.clone(), error: ramp.clone(), swim: ramp.clone() };
+        let pictures = VariantPictures { mask: ramp.clone(), error: ramp.clone(), swim: None };
         writer.variant_pictures(3, 7, &pictures).expect("written");
         let back = read_variant(folder.path(), 3, 7).expect("read");
+        assert_eq!(back.swim, None);
         for (a, b) in back.error.pixels().iter().zip(ramp.pixels()) {
             // Half a unit in the last of 11 bits; a lost bit would be twice that.
             assert!(a.is_nan() && b.is_nan() || (a - b).abs() <= b.abs() * 0.5f32.powi(11), "{a} {b}");

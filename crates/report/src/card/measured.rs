@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use umbrage_metrics::Score;
+use umbrage_metrics::{Measurement, MetricInfo, Score};
 
 /// A score, or why there is none. Never a zero that nobody measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,9 +18,11 @@ pub enum Measured {
 }
 
 impl Measured {
-    /// Not measured, and why.
+    /// Not measured, and why: "one frame only". Pages say "not measured" themselves.
     pub fn no(reason: impl Into<String>) -> Self {
-        Self::NotMeasured { not_measured: reason.into() }
+        let reason = reason.into();
+        let reason = reason.strip_prefix("not measured: ").map_or(reason.clone(), str::to_string);
+        Self::NotMeasured { not_measured: reason }
     }
 
     /// The score, where there is one.
@@ -35,6 +37,15 @@ impl Measured {
 impl From<Score> for Measured {
     fn from(score: Score) -> Self {
         Self::Score(score)
+    }
+}
+
+impl From<Measurement> for Measured {
+    fn from(measurement: Measurement) -> Self {
+        match measurement {
+            Measurement::Measured(score) => Self::Score(score),
+            Measurement::NotMeasured(missing) => Self::no(missing.to_string()),
+        }
     }
 }
 
@@ -57,8 +68,6 @@ pub(crate) struct ScoreSchema {
 pub enum Direction {
     /// Less is better; 0 is perfect.
     Lower,
-    /// More is better.
-    Higher,
     /// 1 is right; on either side it is wrong.
     One,
     /// Describes; neither end is better.
@@ -74,6 +83,8 @@ pub struct MetricCard {
     pub name: String,
     /// Unit; empty for a pure number.
     pub unit: String,
+    /// Legal values.
+    pub range: String,
     /// Which way it points.
     pub direction: Direction,
     /// One or two sentences.
@@ -84,4 +95,24 @@ pub struct MetricCard {
     pub source: String,
     /// What it cannot see.
     pub blind_spot: String,
+}
+
+impl From<&MetricInfo> for MetricCard {
+    fn from(info: &MetricInfo) -> Self {
+        Self {
+            id: info.id.into(),
+            name: info.name.into(),
+            unit: info.unit.into(),
+            range: info.range.into(),
+            direction: match info.direction {
+                umbrage_metrics::Direction::LowerIsBetter => Direction::Lower,
+                umbrage_metrics::Direction::TargetOne => Direction::One,
+                umbrage_metrics::Direction::Descriptive => Direction::Descriptive,
+            },
+            definition: info.definition.into(),
+            formula: info.formula.into(),
+            source: info.source.into(),
+            blind_spot: info.blind_spot.into(),
+        }
+    }
 }

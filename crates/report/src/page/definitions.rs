@@ -13,7 +13,7 @@ pub(super) fn section(card: &Scorecard) -> Markup {
             }
             dl.definitions {
                 @for m in &card.metrics {
-                    dt id={ "metric-" (m.id) } { (m.name) " " span.muted { (direction(m.direction)) @if !m.unit.is_empty() { ", " (m.unit) } } }
+                    dt id={ "metric-" (m.id) } { (m.name) " " span.muted { (direction(m.direction)) @if !m.unit.is_empty() { ", " (m.unit) } @if !m.range.is_empty() { ", " (m.range) } } }
                     dd {
                         p { (m.definition) }
                         @if !m.formula.is_empty() { p.formula { (m.formula) } }
@@ -29,7 +29,6 @@ pub(super) fn section(card: &Scorecard) -> Markup {
 fn direction(direction: Direction) -> &'static str {
     match direction {
         Direction::Lower => "less is better",
-        Direction::Higher => "more is better",
         Direction::One => "1 is right",
         Direction::Descriptive => "describes",
     }

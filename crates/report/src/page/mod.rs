@@ -12,6 +12,7 @@ mod table;
 
 use crate::Scorecard;
 use crate::book::Book;
+use crate::picture::HATCH;
 use crate::plot::{pareto, per_frame};
 use crate::words::answer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -24,6 +25,11 @@ const POLICY: &str = "default-src 'none'; img-src data: file: 'self'; style-src 
 
 /// The whole page.
 pub(crate) fn page(card: &Scorecard, book: &Book) -> String {
+    let hatch = HATCH.map(|[r, g, b]| format!("rgb({r} {g} {b})"));
+    let hatch = format!(
+        ".hatch{{background:repeating-linear-gradient(135deg,{0} 0 3px,{1} 3px 6px)}}",
+        hatch[0], hatch[1]
+    );
     let bars = ["shadow", "error", "swim"].iter().zip(&book.bars);
     let bars: String =
         bars.map(|(name, uri)| format!(".bar.{name}{{background-image:url({uri})}}")).collect();
@@ -36,7 +42,7 @@ pub(crate) fn page(card: &Scorecard, book: &Book) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 title { (card.provenance.suite) " · Umbrage" }
-                style { (PreEscaped(STYLE)) (PreEscaped(bars)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(bars)) (PreEscaped(hatch)) }
             }
             body {
                 (head::head(card))
@@ -97,7 +103,7 @@ fn time(card: &Scorecard) -> Markup {
             h2 { "Over time" }
             p.lede {
                 "What each frame adds to SWIMMING. Light and scene stand still, so at a fixed point of a surface nothing "
-                "should change: a calm variant is a line at 0. Shaded: 95 % intervals. Dashed: as printed."
+                "should change: a calm variant is a line at 0. Shaded: 95 % intervals, of those that can be told from 0. Dashed: as printed."
             }
             @for (index, window) in card.windows.iter().enumerate() {
                 h3 { (window.scene) " · " (window.path) " " span.muted { (window.speed) } }

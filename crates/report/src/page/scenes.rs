@@ -3,8 +3,8 @@
 use super::columns::has_column;
 use super::table;
 use crate::book::{Book, Shown, Slot};
-use crate::numbers::{free_score, number, percent};
-use crate::plot::{Look, swatch};
+use crate::numbers::{Power, count, free_score, number, percent};
+use crate::plot::{Axis, Look, swatch};
 use crate::words::{Comparison, error_caption, plain_line, shadow_caption, swim_caption};
 use crate::{Calibration, Measured, ResultCard, Scorecard};
 use maud::{Markup, html};
@@ -15,11 +15,11 @@ pub(super) fn section(card: &Scorecard, book: &Book) -> Markup {
             h2 { "Scenes" }
             p.lede {
                 "Middle frame of each window. Shadow: black is the umbra, white is fully lit, grey in proportion. Signed "
-                "error: variant minus truth, blue too dark, red too light, one range for the whole page. Swim map: how much "
+                "error: variant minus truth, blue too dark, red too light, one range for the whole page (beyond its ends colours are clamped). Swim map: how much "
                 "each surface point changes while the camera moves. "
                 span.hatch {} " Hatched: not counted (no surface, facing away from the light, or not the same surface in every frame)."
             }
-            label.exact { input type="checkbox" id="exact"; " Pictures at exactly one screen pixel each" }
+            label.exact { input type="checkbox" id="exact"; " Never shrink a picture: one screen pixel for each of its own" }
             @for index in 0..card.windows.len() { (window(card, book, index)) }
         }
     }
@@ -71,7 +71,7 @@ fn facts(card: &Scorecard, index: usize) -> Markup {
     html! {
         p.muted {
             @if w.frames == 1 { "Frame " (w.first_frame) } @else { "Frames " (w.first_frame) " to " (last) }
-            " · " (w.anchors) " points in " (w.tiles) " penumbra tiles · " (percent(w.coverage)) " scored, "
+            " · " (count(w.anchors)) " points in " (count(w.tiles)) " penumbra tiles · " (percent(w.coverage)) " scored, "
             (percent(w.disagreement)) " lost to disagreement"
             @match w.truth_secs {
                 Some(secs) => { " · truth took " (number(secs)) " s" }
@@ -86,15 +86,17 @@ fn variant(card: &Scorecard, book: &Book, window: usize, v: usize) -> Markup {
     let subject = &card.variants[v];
     let none = ResultCard::default();
     let scores = &card.result(window, v).unwrap_or(&none).scores;
-    let limit = number(f64::from(book.error_limit));
-    let swim = number(f64::from(book.swim_limits.get(&window).copied().unwrap_or(1.0)));
+    let end = |limit: f32| Axis::tick_label(Power::ONE, f64::from(limit));
+    let limit = end(book.error_limit);
+    let swim = end(book.swim_limits.get(&window).copied().unwrap_or(1.0));
     let shown = |slot| book.shown(window, slot);
     html! {
         div.variant-row {
             h4 {
                 (swatch(Look::of(card, v))) a href={ "#variant-" (v) } { (subject.name) } " "
-                span.muted { (subject.calibration.label()) " · " (plain_line(scores)) }
+                span.muted { (subject.calibration.label()) }
             }
+            p.muted.line { (plain_line(scores)) }
             div.strip-row {
                 (figure(shown(Slot::Mask(v)), "Shadow", Some("shadow"), ("0", "1"), html! { (shadow_caption(scores)) }))
                 (figure(shown(Slot::Error(v)), "Signed error", Some("error"), (&format!("−{limit}"), &format!("+{limit}")), html! { (error_caption(scores)) }))
@@ -116,7 +118,7 @@ fn figure(
         figure {
             @match shown {
                 Some(shown) => img src=(shown.source) width=(shown.width) height=(shown.height) alt=(title) loading="lazy" decoding="async";,
-                None => p.empty { (title) ": no picture was stored." }
+                None => p.empty { "No picture." }
             }
             figcaption {
                 div.legend-bar {

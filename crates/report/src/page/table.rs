@@ -4,7 +4,7 @@ use super::columns::{Column, GROUPS, columns};
 use crate::numbers::{Power, free_number, number, with_interval};
 use crate::plot::{Axis, Look, Target, strip, swatch};
 use crate::words::{Comparison, plain_line};
-use crate::{Calibration, Measured, Scorecard};
+use crate::{Calibration, Measured, Scorecard, VariantCard};
 use maud::{Markup, html};
 use umbrage_metrics::Score;
 
@@ -48,6 +48,7 @@ struct Shared {
 pub(super) fn scores(scope: Comparison) -> Markup {
     let shared: Vec<Shared> = columns().map(|column| share(scope, column)).collect();
     let costs = scope.window.is_none();
+    let width = shared.len() + 1 + usize::from(costs);
     html! {
         div.wide {
             table.scores {
@@ -63,14 +64,14 @@ pub(super) fn scores(scope: Comparison) -> Markup {
                         @if costs { th.sortable scope="col" { span.name { "GPU" } small { "ms a frame" } } }
                     }
                 }
-                // As printed is the curiosity, light-matched the comparison: it comes first.
+                // Light-matched is the comparison, as printed the curiosity: it comes second.
                 @for calibration in [Calibration::LightMatched, Calibration::AsPrinted] {
-                    @let rows: Vec<usize> = rows(scope.card, calibration);
+                    @let rows = rows(scope.card, calibration);
                     @if !rows.is_empty() {
-                        tbody data-calibration=(calibration.label()) {
-                            tr.kind { th colspan=(shared.len() + 1 + usize::from(costs)) scope="rowgroup" { (kind(calibration)) } }
-                            @for v in rows { (row(scope, v, &shared)) }
+                        tbody.kind data-calibration=(calibration.label()) {
+                            tr { th colspan=(width) scope="rowgroup" { (kind(calibration)) } }
                         }
+                        @for v in rows { (row(scope, v, &shared)) }
                     }
                 }
             }
@@ -101,7 +102,7 @@ fn header(shared: &Shared) -> Markup {
     html! {
         th.sortable scope="col" {
             a.name href={ "#metric-" (column.id) } { (column.head) }
-            small { (column.sub) @if !unit.is_empty() { ", " (unit) } }
+            small { (column.sub) @if !unit.is_empty() { ", " span.unit { (unit) } } }
             small.ends {
                 span { (Axis::tick_label(*power, axis.low)) }
                 @if axis.is_log() { span { "log" } }
@@ -111,20 +112,36 @@ fn header(shared: &Shared) -> Markup {
     }
 }
 
+/// Two lines of the table: the numbers, and what they say.
 fn row(scope: Comparison, v: usize, shared: &[Shared]) -> Markup {
     let variant = &scope.card.variants[v];
     let id = scope.window.is_none().then(|| format!("variant-{v}"));
+    let costs = scope.window.is_none();
+    let words = format!("{} {}", variant.name, variant.technique);
     html! {
-        tr id=[id] data-variant=(v) data-words={ (variant.name) " " (variant.technique) } {
-            th.variant scope="row" {
-                div { (swatch(Look::of(scope.card, v))) strong { (variant.name) } }
-                small { (variant.technique) " · " (variant.taps) " taps · " (variant.passes) @if variant.passes == 1 { " pass" } @else { " passes" } }
-                @if let Some(scores) = scope.scores(v) { p.line { (plain_line(scores)) } }
+        tbody.variant id=[id] data-variant=(v) data-words=(words) data-calibration=(variant.calibration.label()) {
+            tr {
+                th.variant scope="row" {
+                    div { (swatch(Look::of(scope.card, v))) strong { (variant.name) } }
+                    small { (taps(variant)) }
+                }
+                @for s in shared { (cell(scope, v, s)) }
+                @if costs { (cost(scope.card, v)) }
             }
-            @for s in shared { (cell(scope, v, s)) }
-            @if scope.window.is_none() { (cost(scope.card, v)) }
+            tr.line {
+                td colspan=(shared.len() + 1 + usize::from(costs)) {
+                    span { (scope.scores(v).map_or_else(|| "not measured".into(), plain_line)) }
+                }
+            }
         }
     }
+}
+
+fn taps(variant: &VariantCard) -> String {
+    let (taps, passes) = (&variant.taps, variant.passes);
+    let (one_tap, one_pass) = (if taps == "1" { "" } else { "s" }, if passes == 1 { "" } else { "es" });
+    let shape = format!("{taps} tap{one_tap} · {passes} pass{one_pass}");
+    if variant.technique == variant.name { shape } else { format!("{} · {shape}", variant.technique) }
 }
 
 fn cell(scope: Comparison, v: usize, shared: &Shared) -> Markup {

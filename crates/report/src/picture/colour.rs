@@ -2,7 +2,7 @@
 //! 2020), so that equal steps of a value are about equal steps to the eye.
 
 /// The two colours of the hatch over what is not counted: greenish, which no ramp is.
-pub(crate) const HATCH: [[u8; 3]; 2] = [[142, 163, 150], [120, 143, 130]];
+pub(crate) const HATCH: [[u8; 3]; 2] = [[172, 186, 177], [158, 173, 164]];
 
 /// A way from numbers to colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

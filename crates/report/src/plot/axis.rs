@@ -42,7 +42,7 @@ impl Axis {
             return Self { kind: Kind::Linear, low: 0.0, high: 1.0 };
         }
         match target {
-            Target::One => Self::round(lowest.min(0.9), highest.max(1.1)),
+            Target::One => Self::ends(lowest.min(0.9), highest.max(1.1), 20.0),
             Target::Zero => {
                 // Only what is told apart from 0 has a place on a logarithmic axis.
                 let resolved = scores.iter().filter(|s| s.low > 0.0).map(|s| s.value);
@@ -50,14 +50,19 @@ impl Axis {
                 if smallest.is_finite() && highest > LOG_FROM * smallest {
                     return Self::log(smallest, highest);
                 }
-                Self::round(lowest.min(0.0), highest)
+                Self::ends(lowest.min(0.0), highest, 20.0)
             }
         }
     }
 
-    /// A linear axis with round ends.
+    /// A linear axis that ends at ticks.
     pub(crate) fn round(low: f64, high: f64) -> Self {
-        let step = step(high - low, 4.0);
+        Self::ends(low, high, 4.0)
+    }
+
+    /// A linear axis whose ends are round to about one of `parts`.
+    fn ends(low: f64, high: f64, parts: f64) -> Self {
+        let step = step(high - low, parts);
         let (low, mut high) = ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step);
         if high <= low {
             high = low + if step > 0.0 { step } else { 1.0 };

@@ -44,7 +44,7 @@ pub(crate) fn pareto(card: &Scorecard) -> Option<Markup> {
         |q: &Point| 4.0 + 6.0 * if most_swim > 0.0 { (q.swimming.max(0.0) / most_swim).sqrt() } else { 0.0 };
     let places: Vec<(f64, f64, f64)> =
         points.iter().map(|q| (at_x(q.median_ms), at_y(q.error.value), radius(q))).collect();
-    let labels = labels(card, &points, &places);
+    let labels = labels(card, &points, &places, |q| at_x(q.p95_ms));
     let power = Power::of(std::iter::once(y.high));
     Some(html! {
         svg.plot viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } role="img" aria-label="Error against cost" {
@@ -66,11 +66,13 @@ pub(crate) fn pareto(card: &Scorecard) -> Option<Markup> {
                 line class=(class) x1=(p(place.0)) x2=(p(place.0)) y1=(p(at_y(q.error.low))) y2=(p(at_y(q.error.high))) {}
                 line class=(class) x1=(p(place.0)) x2=(p(at_x(q.p95_ms))) y1=(p(place.1)) y2=(p(place.1)) {}
             }
-            @for ((q, place), label) in points.iter().zip(&places).zip(&labels) {
+            @for (q, place) in points.iter().zip(&places) {
                 g {
                     title { (full_name(&card.variants[q.variant])) ": " (number(q.median_ms)) " ms" }
                     (Look::of(card, q.variant).marker(place.0, place.1, place.2))
                 }
+            }
+            @for label in &labels {
                 text.label x=(p(label.x)) y=(p(label.y + 4.0)) text-anchor=(label.anchor) { (label.text) }
             }
         }
@@ -115,18 +117,30 @@ struct Label {
     y: f64,
     anchor: &'static str,
     text: String,
+    /// What it names.
+    dot: (f64, f64),
 }
 
 /// Beside each dot, where it meets no other dot or label: right, left, above or below.
-fn labels(card: &Scorecard, points: &[Point], places: &[(f64, f64, f64)]) -> Vec<Label> {
+fn labels(
+    card: &Scorecard,
+    points: &[Point],
+    places: &[(f64, f64, f64)],
+    whisker: impl Fn(&Point) -> f64,
+) -> Vec<Label> {
     // Boxes as (left, top, right, bottom), from an average width of a letter at this size.
-    let mut taken: Vec<[f64; 4]> = places.iter().map(|&(x, y, r)| [x - r, y - r, x + r, y + r]).collect();
+    let boxed = |(q, &(x, y, r)): (&Point, &(f64, f64, f64))| [x - r, y - r, whisker(q).max(x + r), y + r];
+    let mut taken: Vec<[f64; 4]> = points.iter().zip(places).map(boxed).collect();
     let mut labels = Vec::new();
     for (q, &(x, y, r)) in points.iter().zip(places) {
-        let variant = &card.variants[q.variant];
-        let text = variant.name.clone();
+        let text = card.variants[q.variant].name.clone();
+        let same = |l: &Label| l.text == text && (l.dot.0 - x).hypot(l.dot.1 - y) < 3.0;
+        if labels.iter().any(same) {
+            // Both calibrations of a hard shadow are one dot: one name is enough.
+            continue;
+        }
         let width = 6.6 * text.chars().count() as f64;
-        let right = (x + r + 5.0, y, "start");
+        let right = (whisker(q).max(x + r) + 5.0, y, "start");
         let candidates = [
             right,
             (x - r - 5.0, y, "end"),
@@ -150,7 +164,7 @@ fn labels(card: &Scorecard, points: &[Point], places: &[(f64, f64, f64)]) -> Vec
         };
         let &(lx, ly, anchor) = candidates.iter().find(free).unwrap_or(&right);
         taken.push(frame(&(lx, ly, anchor)));
-        labels.push(Label { x: lx, y: ly, anchor, text });
+        labels.push(Label { x: lx, y: ly, anchor, text, dot: (x, y) });
     }
     labels
 }

@@ -70,7 +70,8 @@ fn lines(card: &Scorecard, window: usize, moving: &[&ResultCard]) -> Markup {
                 @if power != Power::ONE { ", " (power.label()) }
                 " (root scale)"
             }
-            @for r in moving {
+            // Bands of what cannot be told from 0 would only lie on top of each other.
+            @for r in moving.iter().filter(|r| r.per_frame_swimming.iter().any(|s| s.low > 0.0)) {
                 path class={ "band " (Look::of(card, r.variant).class()) } d=(band(&r.per_frame_swimming, at_x, at_y)) {}
             }
             @for r in moving {

@@ -2,7 +2,7 @@
 
 use super::{is_still, is_unresolved};
 use crate::Measured;
-use crate::numbers::number;
+use crate::numbers::spoken_percent;
 use std::collections::BTreeMap;
 use umbrage_metrics::Score;
 
@@ -63,18 +63,17 @@ fn swims(swimming: Score, mse: Option<Score>) -> String {
 }
 
 fn width(ratio: Score) -> String {
-    let percent = |v: f64| format!("{} %", number((100.0 * v).abs()));
     if ratio.high < 1.0 {
-        format!("penumbrae {} too narrow", percent(1.0 - ratio.value))
+        format!("penumbrae {} too narrow", spoken_percent(1.0 - ratio.value))
     } else if ratio.low > 1.0 {
-        format!("penumbrae {} too wide", percent(ratio.value - 1.0))
+        format!("penumbrae {} too wide", spoken_percent(ratio.value - 1.0))
     } else {
         "penumbra width right within its interval".into()
     }
 }
 
 fn share(score: Score, verb: &str, what: &str) -> Option<String> {
-    (score.low > VISIBLE).then(|| format!("{verb} {} % {what}", number(100.0 * score.value)))
+    (score.low > VISIBLE).then(|| format!("{verb} {} {what}", spoken_percent(score.value)))
 }
 
 #[cfg(test)]
@@ -108,9 +107,9 @@ mod tests {
 
     #[test]
     fn width_and_leak_obey_their_intervals() {
-        assert_eq!(line(&[("width_ratio", 0.91, 0.02)]), "penumbrae 9.00 % too narrow");
+        assert_eq!(line(&[("width_ratio", 0.91, 0.02)]), "penumbrae 9 % too narrow");
         assert_eq!(line(&[("width_ratio", 1.02, 0.03)]), "penumbra width right within its interval");
         assert_eq!(line(&[("light_leak", 0.012, 0.011)]), "not measured", "may be as low as 0.001");
-        assert_eq!(line(&[("light_leak", 0.012, 0.002)]), "leaks 1.20 % light into the umbra");
+        assert_eq!(line(&[("light_leak", 0.012, 0.002)]), "leaks 1.2 % light into the umbra");
     }
 }

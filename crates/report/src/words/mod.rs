@@ -5,9 +5,11 @@ mod compare;
 mod line;
 mod sentences;
 mod span;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use caption::{error_caption, shadow_caption, swim_caption};
 pub(crate) use compare::{Comparison, is_still, is_unresolved};
 pub(crate) use line::plain_line;
 pub(crate) use sentences::answer;
-pub(crate) use span::{Sentence, Span, Target, full_name};
+pub(crate) use span::{Sentence, Span, full_name};

@@ -125,20 +125,25 @@ fn trade_off(all: Comparison) -> Option<Sentence> {
     if let (Some((other, error)), Some(swimming)) = (calmer, swimming) {
         let paid = name.text(" pays for it under motion: SWIMMING ").number(free_score(swimming));
         let against = paid.text(", where ").variant(all.card, other).text(" has ");
-        let calm = all.score(other, "swimming").map_or_else(|| "less".into(), free_score);
-        return Some(against.number(calm).text(" at an ERROR of ").number(free_score(error)).text("."));
+        let against = match all.score(other, "swimming") {
+            Some(calm) if is_still(calm) => against.text("none"),
+            Some(calm) if is_unresolved(calm) => against.text("none that could be resolved"),
+            calm => against.number(calm.map(free_score).unwrap_or_default()),
+        };
+        return Some(against.text(" at an ERROR of ").number(free_score(error)).text("."));
     }
     let scores = all.scores(best)?;
     let cell = super::line::dominant_cell(scores)?;
     let share = all.score(best, cell)?.value / all.score(best, "mse")?.value;
     let what = match cell {
-        "noise" => "noise, which a temporal or spatial filter would still reduce",
+        "noise" => "noise, which a filter could still reduce",
         "structured_static" => "static bands",
         "structured_moving" => "crawling bands",
         "smooth_moving" => "breathing penumbrae",
-        _ => "a smooth one: penumbrae of a wrong width or depth",
+        _ => "a wrong penumbra profile (its width or its depth)",
     };
-    Some(name.text("'s remaining squared error is ").number(percent(share)).text(format!(" {what}.")))
+    let of = Sentence::default().text("Of the squared error of ").variant(all.card, best).text(", ");
+    Some(of.number(percent(share)).text(format!(" is {what}.")))
 }
 
 /// The most faithful variant within each budget; on a software adapter, why there is none.

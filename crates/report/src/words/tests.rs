@@ -1,0 +1,110 @@
+//! Sentences obey intervals: each test moves one interval and reads what is said.
+
+use super::{Comparison, answer};
+use crate::fixture::{Device, scorecard};
+use crate::{Measured, OverallCard, PairedCard, Scorecard};
+use umbrage_metrics::Score;
+
+fn score(value: f64, half: f64) -> Score {
+    Score { value, low: value - half, high: value + half }
+}
+
+/// Three variants (hard, pcf-grid-11, pcf-vogel-16) with these errors and swimmings.
+fn card(errors: [Score; 3], swimming: [Score; 3]) -> Scorecard {
+    let mut card = scorecard(Device::Software, (48, 27));
+    card.variants.truncate(3);
+    card.results.clear();
+    card.paired.clear();
+    let overall = |variant: usize| OverallCard {
+        variant,
+        scores: [("error", errors[variant]), ("swimming", swimming[variant])]
+            .map(|(id, s)| (id.to_string(), Measured::from(s)))
+            .into(),
+        cost_note: Some("not a cost: software adapter".into()),
+        ..OverallCard::default()
+    };
+    card.overall = (0..3).map(overall).collect();
+    card
+}
+
+fn say(card: &Scorecard) -> String {
+    answer(card).iter().map(|s| s.plain()).collect::<Vec<_>>().join("\n")
+}
+
+const STILL: Score = Score { value: 0.0, low: 0.0, high: 0.0 };
+
+#[test]
+fn a_winner_is_named_only_when_it_is_one() {
+    let apart = [score(0.03, 0.001), score(0.04, 0.001), score(0.05, 0.001)];
+    assert!(
+        say(&card(apart, [STILL; 3])).starts_with("hard (light-matched) is the most faithful: ERROR 0.0300")
+    );
+    let close = [score(0.03, 0.006), score(0.04, 0.006), score(0.05, 0.001)];
+    let said = say(&card(close, [STILL; 3]));
+    assert!(!said.contains("most faithful"), "{said}");
+    assert!(said.contains("cannot be told apart from pcf-grid-11 (light-matched)."), "{said}");
+    let same = [score(0.03, 0.02), score(0.04, 0.02), score(0.035, 0.02)];
+    assert!(say(&card(same, [STILL; 3])).starts_with("No difference in ERROR could be resolved"));
+}
+
+#[test]
+fn a_paired_difference_outweighs_the_intervals() {
+    let close = [score(0.03, 0.006), score(0.04, 0.006), score(0.05, 0.001)];
+    let mut card = card(close, [STILL; 3]);
+    let difference = score(0.01, 0.002);
+    let pair = PairedCard { a: 1, b: 0, window: None, metric: "error".into(), difference, resolved: true };
+    card.paired.push(pair);
+    assert!(say(&card).contains("hard (light-matched) is the most faithful"));
+    card.paired[0].resolved = false;
+    assert!(!say(&card).contains("most faithful"), "not after the correction for many comparisons");
+    let all = Comparison { card: &card, window: Some(0) };
+    assert!(!all.lower(0, 1, "error"), "a pooled difference says nothing about one window");
+}
+
+#[test]
+fn swimming_is_none_unresolved_or_most() {
+    let errors = [score(0.03, 0.001), score(0.04, 0.001), score(0.05, 0.001)];
+    let said = say(&card(errors, [STILL, score(1e-6, 2e-6), score(9e-6, 1e-6)]));
+    assert!(said.contains("hard (light-matched) does not swim at all"), "{said}");
+    assert!(said.contains("no swimming could be resolved in pcf-grid-11 (light-matched)"), "{said}");
+    assert!(said.contains("pcf-vogel-16 (light-matched) swims most, SWIMMING (9.0 ± 1.0)×10⁻⁶"), "{said}");
+    let said = say(&card(errors, [score(8e-6, 3e-6), score(7e-6, 3e-6), score(9e-6, 3e-6)]));
+    assert!(said.contains("no difference in SWIMMING could be resolved"), "{said}");
+    assert!(!said.contains("swims most"), "{said}");
+}
+
+#[test]
+fn fidelity_paid_for_in_motion_is_said() {
+    let errors = [score(0.03, 0.001), score(0.04, 0.001), score(0.05, 0.001)];
+    let said = say(&card(errors, [score(9e-6, 1e-6), STILL, STILL]));
+    let paid = "hard (light-matched) pays for it under motion: SWIMMING (9.0 ± 1.0)×10⁻⁶, \
+                where pcf-grid-11 (light-matched) has none at an ERROR of 0.0400 ± 0.0010.";
+    assert!(said.contains(paid), "{said}");
+    let said = say(&card(errors, [score(9e-6, 1e-6), score(8e-6, 1e-6), score(9e-6, 1e-6)]));
+    assert!(!said.contains("pays"), "{said}");
+}
+
+#[test]
+fn what_was_not_measured_says_why() {
+    let mut card = card([score(0.03, 0.001); 3], [STILL; 3]);
+    for overall in &mut card.overall {
+        overall.scores.insert("swimming".into(), Measured::no("not measured: one frame only"));
+    }
+    let said = say(&card);
+    assert!(said.contains("SWIMMING was not measured: one frame only."), "{said}");
+    assert!(said.contains("Cost was not measured: not a cost: software adapter."), "{said}");
+    for window in &mut card.windows {
+        window.anchors = 0;
+    }
+    assert!(say(&card).contains("no anchors agreed in any view: check the camera"));
+}
+
+#[test]
+fn budgets_name_a_dearer_variant_only_when_it_is_better() {
+    let card = scorecard(Device::Gpu, (48, 27));
+    let said = say(&card);
+    assert!(said.contains("within 0.05 ms hard (light-matched)"), "{said}");
+    assert!(said.contains("within 0.2 ms chss-mask (light-matched)"), "{said}");
+    assert!(said.contains("nothing dearer is resolvably better"), "{said}");
+    assert!(!said.contains("within 0.5 ms"), "{said}");
+}
