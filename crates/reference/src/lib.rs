@@ -9,9 +9,12 @@
 //! environment nor the clock.
 
 mod aim;
+mod cache;
 mod error;
+mod irradiance;
 mod owen;
 mod primary;
+mod radiance;
 mod rays;
 mod receiver;
 mod samples;
@@ -20,7 +23,10 @@ mod surfaces;
 mod tracer;
 mod truth;
 
+pub use cache::{Cache, Source, TruthKey};
 pub use error::ReferenceError;
+pub use irradiance::Irradiance;
 pub use primary::{Points, PrimaryHits};
+pub use radiance::RadianceSettings;
 pub use tracer::Tracer;
 pub use truth::{GroundTruth, Method, TruthSettings};

@@ -69,7 +69,7 @@ impl Tracer {
 
     fn seen(&self, camera: &CameraRays, x: u32, y: u32) -> Seen {
         let line = camera.line(x, y);
-        let Some(hit) = self.surfaces.closest(&line) else { return NOTHING };
+        let Some(hit) = self.surfaces.closest(&line, |_, _| false) else { return NOTHING };
         let position = (line.origin + line.direction * hit.distance).as_vec3();
         let triangle = self.surfaces.triangle_of_slot[hit.slot as usize];
         Seen {
@@ -106,6 +106,11 @@ impl Points {
     /// How many.
     pub fn len(&self) -> usize {
         self.position.len()
+    }
+
+    pub(crate) fn check(&self) {
+        assert_eq!(self.position.len(), self.normal.len(), "a normal for each point");
+        assert_eq!(self.position.len(), self.triangle.len(), "a triangle for each point");
     }
 
     /// Whether there are none.

@@ -16,15 +16,22 @@ pub(crate) fn cover(
     samples: &LightSamples,
     cover: &mut [f32],
 ) {
-    let (receiver, aim) = sight;
     for (sample, cover) in cover.iter_mut().enumerate() {
-        if *cover < 0.0 {
-            let line = line(receiver, aim, samples, sample);
-            if surfaces.blocked(&line, |slot, corners| receiver.skips(slot, corners)) {
-                *cover = 1.0;
-            }
+        if *cover < 0.0 && blocked(surfaces, sight, samples, sample) {
+            *cover = 1.0;
         }
     }
+}
+
+/// Whether a surface hides one sample.
+pub(crate) fn blocked(
+    surfaces: &Surfaces,
+    (receiver, aim): (&Receiver, &Aim),
+    samples: &LightSamples,
+    sample: usize,
+) -> bool {
+    let line = line(receiver, aim, samples, sample);
+    surfaces.blocked(&line, |slot, corners| receiver.skips(slot, corners))
 }
 
 /// From the receiver to a sample.

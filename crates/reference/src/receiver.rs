@@ -39,6 +39,11 @@ impl Receiver {
         Self { position: position + own * own.dot(a - position), normal: own, slot: Some(slot) }
     }
 
+    /// A place that a ray has hit, seen from `normal`'s side.
+    pub(crate) fn hit(slot: u32, position: DVec3, normal: DVec3) -> Self {
+        Self { position, normal, slot: Some(slot) }
+    }
+
     /// Whether a triangle cannot shadow this point: its own, one in the same plane, or one that
     /// lies wholly below the horizon.
     pub(crate) fn skips(&self, slot: u32, corners: &[Vec3; 3]) -> bool {

@@ -69,6 +69,15 @@ impl LightSamples {
         aim.axis + f64::from(self.x[sample]) * aim.u + f64::from(self.y[sample]) * aim.v
     }
 
+    /// Replaces all samples by one, given in the unit square.
+    pub(crate) fn set_one(&mut self, aim: &Aim, [x, y]: [f32; 2]) {
+        self.x.clear();
+        self.y.clear();
+        self.x.push(x);
+        self.y.push(y);
+        self.spread(aim);
+    }
+
     /// From the unit square onto the light.
     fn spread(&mut self, aim: &Aim) {
         match aim.outline {

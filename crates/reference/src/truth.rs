@@ -99,8 +99,7 @@ impl Tracer {
     /// # Panics
     /// When the lists of `points` differ in length: a programming error, never a user's.
     pub fn truth(&self, points: &Points, light: &AreaLight, settings: &TruthSettings) -> GroundTruth {
-        assert_eq!(points.position.len(), points.normal.len(), "a normal for each point");
-        assert_eq!(points.position.len(), points.triangle.len(), "a triangle for each point");
+        points.check();
         let layout = settings.layout();
         let task = Task { tracer: self, light, settings, layout: &layout };
         let each: Vec<PointTruth> = (0..points.len())

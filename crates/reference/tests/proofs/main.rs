@@ -1,4 +1,12 @@
 //! Proofs of ground truth: what must hold whoever rewrites the tracer.
 
 mod agreement;
+mod cache;
+mod closed_forms;
 mod common;
+mod exact;
+mod independence;
+mod irradiance;
+mod pitfalls;
+mod primary;
+mod sampling;

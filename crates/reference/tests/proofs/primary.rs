@@ -1,0 +1,87 @@
+//! Camera rays: what the rest of the project takes for what is seen.
+
+use crate::common::*;
+use glam::{Vec2, Vec3};
+use umbrage_frame::Anchors;
+use umbrage_reference::Tracer;
+
+fn soup() -> Vec<[Vec3; 3]> {
+    let mut random = Random(6);
+    (0..400)
+        .map(|_| {
+            let centre = random.vector() * 4.0;
+            [0, 1, 2].map(|_| centre + random.vector() * 0.8)
+        })
+        .collect()
+}
+
+/// Every pixel against every triangle, in f64.
+#[test]
+fn closest_hits_equal_brute_force() {
+    let triangles = soup();
+    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let view = view(Vec3::new(1.0, 2.0, 9.0), Vec3::ZERO, [64, 36]);
+    let hits = tracer.primary(&view);
+    let eye = view.eye().as_dvec3();
+    for (x, y) in (0..36).flat_map(|y| (0..64).map(move |x| (x, y))) {
+        let through = view.direction(Vec2::new(x as f32 + 0.5, y as f32 + 0.5)).as_dvec3();
+        let distance = |t: &[Vec3; 3]| {
+            let [a, b, c] = t.map(|v| v.as_dvec3() - eye);
+            let edges = [a.cross(b), b.cross(c), c.cross(a)].map(|n| n.dot(through));
+            let inside = edges.iter().all(|&e| e >= 0.0) || edges.iter().all(|&e| e <= 0.0);
+            let normal = (b - a).cross(c - a);
+            let t = normal.dot(a) / normal.dot(through);
+            (inside && t > 0.0).then_some(t)
+        };
+        let nearest = triangles.iter().filter_map(distance).fold(f64::INFINITY, f64::min);
+        let want = (nearest * through.dot(view.direction(Vec2::new(32.0, 18.0)).as_dvec3())) as f32;
+        let depth = *hits.gbuffer.depth.at(x, y);
+        // Both directions carry f32 roundings (view.direction): 1e-6 of the depth, times the slope
+        // of a surface seen at 1 degree, 60.
+        let equal = depth == want || (depth - want).abs() < 6e-5 * want;
+        assert!(equal, "pixel {x}, {y}: {depth} for {want}");
+    }
+}
+
+#[test]
+fn surfaces_lie_on_their_pixels() {
+    let tracer = Tracer::new(&scene(&[soup(), floor(30.0).to_vec()].concat())).expect("a scene");
+    let view = view(Vec3::new(1.0, 2.0, 9.0), Vec3::ZERO, [64, 36]);
+    let hits = tracer.primary(&view);
+    let (points, anchors) = (hits.points(), Anchors::of(&hits.gbuffer));
+    assert_eq!((&points.position, &points.normal), (&anchors.position, &anchors.normal));
+    assert!(points.len() > 1000);
+    for (i, &pixel) in anchors.pixel.iter().enumerate() {
+        let centre = Vec2::new((pixel % 64) as f32 + 0.5, (pixel / 64) as f32 + 0.5);
+        // f32 matrices: a few ulps of 2^-24 over a picture 64 pixels wide.
+        let px = view.project(points.position[i]).expect("in the picture");
+        assert!(px.distance(centre) < 1e-3, "{px} for {centre}");
+        let depth = hits.gbuffer.depth.pixels()[pixel as usize];
+        assert!((depth - view.depth(points.position[i])).abs() < 1e-5 * depth);
+        let towards = points.normal[i].dot(view.eye() - points.position[i]);
+        assert!(towards >= 0.0 && (points.normal[i].length() - 1.0).abs() < 1e-6);
+        assert_eq!(hits.material.pixels()[pixel as usize], 0);
+    }
+}
+
+/// The near plane (5 cm) cuts, as it does for a rasteriser; so does the far plane (500 m).
+#[test]
+fn near_and_far_planes_cut() {
+    let wall = |z: f32| quad(Vec3::Z * z, Vec3::X * 1000.0, Vec3::Y * 1000.0);
+    let seen = |walls: &[[Vec3; 3]]| {
+        let tracer = Tracer::new(&scene(walls)).expect("a scene");
+        *tracer.primary(&view(Vec3::ZERO, Vec3::NEG_Z, [5, 3])).gbuffer.depth.at(0, 0)
+    };
+    assert!((seen(&[wall(-0.04), wall(-2.0)].concat()) - 2.0).abs() < 1e-5);
+    assert!((seen(&[wall(-0.06), wall(-2.0)].concat()) - 0.06).abs() < 1e-6);
+    // The far plane is known to about 1e-7 far / near = 1e-3.
+    assert!((seen(&wall(-498.0)) - 498.0).abs() < 1e-2);
+    assert_eq!(seen(&wall(-502.0)), f32::INFINITY);
+}
+
+#[test]
+fn nothing_to_see() {
+    let tracer = Tracer::new(&scene(&floor(1.0))).expect("a scene");
+    let hits = tracer.primary(&view(Vec3::Y, Vec3::Y * 9.0, [4, 4]));
+    assert!(hits.points().is_empty() && hits.triangle.pixels().iter().all(|&t| t == u32::MAX));
+}
