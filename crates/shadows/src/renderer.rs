@@ -68,6 +68,11 @@ impl<'a> Renderer<'a> {
         self.bias = Some(bias);
     }
 
+    /// Lets go of kept maps, so that the next frame renders (and times) them again.
+    pub fn forget(&mut self) {
+        self.gpu.forget();
+    }
+
     /// The projection of the light's map.
     pub fn light_map(&mut self, light: &AreaLight) -> LightMap {
         match self.light_map {
@@ -122,6 +127,20 @@ impl<'a> Renderer<'a> {
         let receivers = Receivers::Anchors { count: self.gpu.anchors() };
         let recording = self.record(&Job { variant, view, receivers, seeding, pattern }, light)?;
         self.gpu.run(&recording)
+    }
+
+    /// A variant's passes over the pixels of a view, as data: what a result depends on.
+    ///
+    /// # Errors
+    /// Too large a picture.
+    pub fn recording(
+        &mut self,
+        variant: VariantId,
+        (view, light): (&View, &AreaLight),
+        (seeding, pattern): (Seeding, [u32; 2]),
+    ) -> Result<Recording, ShadowError> {
+        let job = Job { variant, view, receivers: Receivers::Frame, seeding, pattern };
+        self.record(&job, light)
     }
 
     /// Every intermediate target of a variant's frame, after `shade_frame`'s passes.

@@ -87,6 +87,11 @@ impl Gpu {
         self.device.limits().max_texture_dimension_2d
     }
 
+    /// Lets go of kept textures.
+    pub(crate) fn forget(&mut self) {
+        self.textures.forget();
+    }
+
     /// Anchors uploaded last.
     pub(crate) fn anchors(&self) -> u32 {
         self.anchors.as_ref().map_or(0, |a| a.1)

@@ -56,6 +56,11 @@ impl Textures {
         (entry.1.clone(), entry.2)
     }
 
+    /// Lets go of what is kept.
+    pub(super) fn forget(&mut self) {
+        self.kept.clear();
+    }
+
     /// Marks every kept texture of a recording as filled, after its passes ran.
     pub(super) fn filled(&mut self, recording: &Recording) {
         for info in recording.textures.iter().filter(|t| t.kept.is_some()) {

@@ -1,0 +1,194 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Scores real-time soft shadows against path-traced truth: error, banding, noise and swimming.
+#[derive(Parser, Debug)]
+#[command(name = "umbrage", version, after_help = EXIT_CODES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 pass (warnings allowed), 1 regression or a threshold failed, 2 usage, \
+3 not comparable, 4 input, file or GPU failure, 5 no baseline, 130 interrupted.";
+
+#[derive(Subcommand, Debug)]
+pub(crate) enum Command {
+    /// Render truth and variants, score them, write the report: the main job.
+    Evaluate(EvaluateArgs),
+    /// Ground truth of one frame to EXR.
+    Reference(ReferenceArgs),
+    /// One variant to EXR.
+    Render(RenderArgs),
+    /// Pages from a stored run.
+    Report(ReportArgs),
+    /// What there is.
+    List(ListArgs),
+}
+
+/// Flags of everything that looks at a scene.
+#[derive(Args, Debug, Clone)]
+pub(crate) struct ViewArgs {
+    /// Picture size.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(crate) size: Option<(u32, u32)>,
+    /// Camera path (several by repeating); all of the suite's otherwise.
+    #[arg(long = "path", value_name = "NAME")]
+    pub(crate) paths: Vec<String>,
+    /// Side of the shadow map in texels.
+    #[arg(long, value_name = "TEXELS", default_value_t = 2048)]
+    pub(crate) map: u32,
+    /// Adapter by (part of) its name; `umbrage list adapters` shows them.
+    #[arg(long, value_name = "NAME", env = "WGPU_ADAPTER_NAME")]
+    pub(crate) adapter: Option<String>,
+    /// Graphics interface: vulkan, metal or dx12.
+    #[arg(long, value_name = "NAME", env = "WGPU_BACKEND")]
+    pub(crate) backend: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct EvaluateArgs {
+    /// A suite file, scene names, scene folders or model files; the standard suite otherwise.
+    pub(crate) what: Vec<PathBuf>,
+    /// Scene by name (several by repeating): narrows a suite down.
+    #[arg(long = "scene", value_name = "NAME")]
+    pub(crate) scenes: Vec<String>,
+    /// Variant by name, `chss` or `chss/as-printed` (several by repeating); all otherwise.
+    #[arg(long = "variant", value_name = "NAME")]
+    pub(crate) variants: Vec<String>,
+    /// Frames of each path; windows of 16 (fewer: one window; 1: temporal cells are not measured).
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) frames: Option<u32>,
+    /// Pattern seeds per frame.
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(2..=64))]
+    pub(crate) seeds: Option<u32>,
+    /// Light samples of truth in each of its two halves.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65536))]
+    pub(crate) samples: Option<u32>,
+    /// Small and coarse: an answer in seconds.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Folder of the run.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Folder of cached truth and results.
+    #[arg(long, value_name = "DIR", default_value = "reports/out/cache")]
+    pub(crate) cache: PathBuf,
+    /// Print the scorecard to standard output, and nothing else there.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Also write each variant's frames as EXR under the run.
+    #[arg(long)]
+    pub(crate) keep_frames: bool,
+    /// Where the report's pictures go: `file` (into the page) or `dir` (beside it).
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) report: ReportKind,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
+}
+
+#[derive(ValueEnum, Clone, Copy, Debug, Default)]
+pub(crate) enum ReportKind {
+    /// One self-contained page.
+    #[default]
+    File,
+    /// A page with its pictures beside it.
+    Dir,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ReferenceArgs {
+    /// A scene name, folder or model file.
+    pub(crate) scene: PathBuf,
+    /// Frame of the path.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) frame: u32,
+    /// Light samples in each of the two halves.
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub(crate) samples: u32,
+    /// `shafts` (fast) or `rays` (the arbiter).
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) method: MethodArg,
+    /// Diffuse bounces of the beauty layers R, G, B; without it there is no beauty.
+    #[arg(long, value_name = "N")]
+    pub(crate) bounces: Option<u32>,
+    /// Paths a pixel of the beauty layers.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) beauty_samples: u32,
+    /// The EXR file.
+    #[arg(long, value_name = "FILE", default_value = "reference.exr")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
+}
+
+#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum MethodArg {
+    /// Gathered triangles against all samples at once.
+    #[default]
+    Shafts,
+    /// A ray a sample.
+    Rays,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct RenderArgs {
+    /// A scene name, folder or model file.
+    pub(crate) scene: PathBuf,
+    /// Variant: `chss` or `chss/as-printed` (several by repeating).
+    #[arg(long = "variant", value_name = "NAME", required = true)]
+    pub(crate) variants: Vec<String>,
+    /// First frame of the path.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) frame: u32,
+    /// How many frames.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) frames: u32,
+    /// Write every intermediate target as well.
+    #[arg(long)]
+    pub(crate) dump: bool,
+    /// Folder of the EXR files.
+    #[arg(long, value_name = "DIR", default_value = "frames")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ReportArgs {
+    /// Folder of a run.
+    pub(crate) run: PathBuf,
+    /// Where the report's pictures go: `file` (into the page) or `dir` (beside it).
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) report: ReportKind,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ListArgs {
+    /// Of what.
+    #[arg(value_enum)]
+    pub(crate) what: Listed,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(ValueEnum, Clone, Copy, Debug)]
+pub(crate) enum Listed {
+    Scenes,
+    Paths,
+    Variants,
+    Metrics,
+    Adapters,
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, as in 1920x1080")?;
+    let side = |s: &str| s.trim().parse::<u32>().map_err(|e| format!("\"{s}\" is no size: {e}"));
+    match (side(width)?, side(height)?) {
+        (0, _) | (_, 0) => Err("a picture has at least one pixel a side".into()),
+        size => Ok(size),
+    }
+}

@@ -1,0 +1,78 @@
+//! `umbrage evaluate`: the main job.
+
+use super::open_gpu;
+use crate::args::{EvaluateArgs, ReportKind};
+use crate::clock;
+use crate::error::CliError;
+use crate::run::{Settings, evaluate};
+use crate::suite::Plan;
+use std::path::{Path, PathBuf};
+use umbrage_report::{Layout, write_report};
+
+pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
+    let plan = Plan::new(args)?;
+    let now = clock::now();
+    let out = args.out.clone().unwrap_or_else(|| run_folder(&plan.name, &now.folder));
+    let mut gpu = open_gpu(&args.view)?;
+    eprintln!("adapter: {} ({})", gpu.description().name, gpu.description().device_type);
+    let settings = Settings {
+        cache: args.cache.clone(),
+        out: out.clone(),
+        map_texels: args.view.map,
+        keep_frames: args.keep_frames,
+        command: command_line(),
+        now,
+    };
+    let outcome = evaluate(&plan, &settings, &mut gpu);
+    // A run that scored nothing still has pictures that show why.
+    let pages = out.join("scorecard.json").exists().then(|| pages(&out, args.report)).transpose()?;
+    let (card, warnings) = outcome?;
+    for warning in warnings.iter().chain(pages.iter().flat_map(|p| &p.warnings)) {
+        eprintln!("warning: {warning}");
+    }
+    if args.json {
+        println!("{}", card.to_json()?.trim_end());
+    }
+    if let Some(written) = pages {
+        eprintln!("report: {}", written.index.display());
+    }
+    Ok(())
+}
+
+fn pages(out: &Path, kind: ReportKind) -> Result<umbrage_report::Written, CliError> {
+    Ok(write_report(out, layout(kind))?)
+}
+
+/// Where the report's pictures go.
+pub(super) fn layout(kind: ReportKind) -> Layout {
+    match kind {
+        ReportKind::File => Layout::SingleFile,
+        ReportKind::Dir => Layout::Folder,
+    }
+}
+
+/// Safe as a folder name whatever the suite is called.
+fn run_folder(name: &str, date: &str) -> PathBuf {
+    let safe: String = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() || "-_.+".contains(c) { c } else { '-' })
+        .take(60)
+        .collect();
+    Path::new("reports/out").join(format!("{safe}-{date}"))
+}
+
+/// The command to copy: the program's own name, not where it lies on this machine.
+fn command_line() -> String {
+    let quoted = |argument: String| {
+        let plain = argument.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=+,:".contains(c));
+        if plain && !argument.is_empty() {
+            argument
+        } else {
+            format!("'{}'", argument.replace('\'', "'\\''"))
+        }
+    };
+    std::iter::once("umbrage".to_string())
+        .chain(std::env::args().skip(1).map(quoted))
+        .collect::<Vec<_>>()
+        .join(" ")
+}

@@ -1,0 +1,128 @@
+//! `umbrage list`: what there is.
+
+use crate::args::{ListArgs, Listed};
+use crate::error::CliError;
+use serde_json::{Value, json};
+use umbrage_metrics::METRICS;
+use umbrage_scene::{Scene, builtin_names};
+use umbrage_shadows::{Calibration, VARIANTS, VariantId, adapters};
+
+/// A heading and rows: one shape for text and JSON.
+struct Table {
+    columns: &'static [&'static str],
+    rows: Vec<Vec<String>>,
+}
+
+pub(crate) fn run(args: &ListArgs) -> Result<(), CliError> {
+    let table = match args.what {
+        Listed::Scenes => scenes()?,
+        Listed::Paths => paths()?,
+        Listed::Variants => variants()?,
+        Listed::Metrics => metrics(),
+        Listed::Adapters => adapter_table(),
+    };
+    if args.json {
+        print_json(&table)
+    } else {
+        print_text(&table)
+    }
+    Ok(())
+}
+
+fn scenes() -> Result<Table, CliError> {
+    let mut rows = Vec::new();
+    for name in builtin_names() {
+        let scene = Scene::builtin(name)?;
+        let paths = scene.paths.iter().map(|p| p.name.clone()).collect::<Vec<_>>().join(" ");
+        rows.push(vec![
+            name.to_string(),
+            scene.geometry.triangles.len().to_string(),
+            paths,
+            scene.title.clone(),
+        ]);
+    }
+    Ok(Table { columns: &["scene", "triangles", "paths", "title"], rows })
+}
+
+fn paths() -> Result<Table, CliError> {
+    let mut rows = Vec::new();
+    for name in builtin_names() {
+        let scene = Scene::builtin(name)?;
+        for path in &scene.paths {
+            rows.push(vec![
+                name.to_string(),
+                path.name.clone(),
+                path.frames.len().to_string(),
+                path.title.clone(),
+            ]);
+        }
+    }
+    Ok(Table { columns: &["scene", "path", "frames", "title"], rows })
+}
+
+fn variants() -> Result<Table, CliError> {
+    let scene = Scene::builtin("colonnade")?;
+    let row = |variant: &'static umbrage_shadows::Variant| {
+        let id = VariantId { variant, calibration: Calibration::LightMatched };
+        let info = id.info();
+        let both = Calibration::ALL.map(Calibration::name).join(" ");
+        let passes = id.passes(&scene).join(" > ");
+        vec![
+            variant.name.to_string(),
+            both,
+            info.taps,
+            passes,
+            info.document.to_string(),
+            info.title.to_string(),
+        ]
+    };
+    let columns = &["variant", "calibrations", "taps", "passes", "document", "title"];
+    Ok(Table { columns, rows: VARIANTS.iter().map(row).collect() })
+}
+
+fn metrics() -> Table {
+    let row = |m: &umbrage_metrics::MetricInfo| {
+        vec![
+            m.id.to_string(),
+            m.name.to_string(),
+            m.unit.to_string(),
+            m.range.to_string(),
+            m.definition.to_string(),
+        ]
+    };
+    Table {
+        columns: &["metric", "name", "unit", "range", "definition"],
+        rows: METRICS.iter().map(row).collect(),
+    }
+}
+
+fn adapter_table() -> Table {
+    let row =
+        |a: umbrage_shadows::AdapterDescription| vec![a.name, a.device_type.to_string(), a.backend, a.driver];
+    Table {
+        columns: &["adapter", "type", "backend", "driver"],
+        rows: adapters().into_iter().map(row).collect(),
+    }
+}
+
+fn print_json(table: &Table) {
+    let object = |row: &Vec<String>| {
+        let pairs = table.columns.iter().zip(row).map(|(column, cell)| ((*column).to_string(), json!(cell)));
+        Value::Object(pairs.collect())
+    };
+    println!("{:#}", Value::Array(table.rows.iter().map(object).collect()));
+}
+
+/// Columns aligned, except the last, which may be long.
+fn print_text(table: &Table) {
+    let header = table.columns.iter().map(|c| (*c).to_string()).collect::<Vec<_>>();
+    let width = |column: usize| {
+        let cells = table.rows.iter().chain([&header]).map(|row| row[column].chars().count());
+        cells.max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..header.len()).map(width).collect();
+    for row in [&header].into_iter().chain(&table.rows) {
+        let cells = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:width$}"));
+        println!("{}", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+}

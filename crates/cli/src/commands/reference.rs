@@ -1,0 +1,55 @@
+//! `umbrage reference`: ground truth of one frame to EXR.
+
+use crate::args::{MethodArg, ReferenceArgs};
+use crate::error::CliError;
+use crate::scenes::find_scene;
+use crate::views::{frame_of, path_of, view_of};
+use umbrage_frame::{Image, Layer, write_exr};
+use umbrage_reference::{Method, PrimaryHits, Tracer, TruthSettings};
+
+pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
+    let (scene, _) = find_scene(&args.scene)?;
+    let path = path_of(&scene, &args.view.paths)?;
+    let frame = frame_of(path, args.frame)?;
+    let view = view_of(frame, args.view.size.unwrap_or((1280, 720)));
+    let tracer = Tracer::new(&scene)?;
+    let hits = tracer.primary(&view);
+    let settings = TruthSettings {
+        samples: args.samples,
+        method: match args.method {
+            MethodArg::Shafts => Method::Shafts,
+            MethodArg::Rays => Method::Rays,
+        },
+        ..TruthSettings::default()
+    };
+    let truth = tracer.truth(&hits.points(), &frame.light, &settings);
+    let mut layers = surfaces(&hits);
+    let mut add = |name: &str, values: &[f32]| layers.push((name.to_string(), spread(&hits, values)));
+    add("reference.V", &truth.mean);
+    add("half1.V", &truth.halves[0]);
+    add("half2.V", &truth.halves[1]);
+    add("variance.V", &truth.variance);
+    write_exr(&args.out, &layers)?;
+    println!("{}", args.out.display());
+    Ok(())
+}
+
+/// A value per hit as a picture; 0 where nothing is hit.
+fn spread(hits: &PrimaryHits, values: &[f32]) -> Image<f32> {
+    let depth = &hits.gbuffer.depth;
+    let mut next = values.iter();
+    let pixel = |d: &f32| if d.is_finite() { next.next().copied().unwrap_or(0.0) } else { 0.0 };
+    depth.map(pixel)
+}
+
+fn surfaces(hits: &PrimaryHits) -> Vec<Layer> {
+    let gbuffer = &hits.gbuffer;
+    let axis = |image: &Image<glam::Vec3>, k: usize| image.map(|v| v[k]);
+    let mut layers =
+        vec![("depth.Z".to_string(), gbuffer.depth.map(|&d| if d.is_finite() { d } else { 0.0 }))];
+    for (k, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+        layers.push((format!("normal.{name}"), axis(&gbuffer.normal, k)));
+        layers.push((format!("position.{name}"), axis(&gbuffer.position, k)));
+    }
+    layers
+}

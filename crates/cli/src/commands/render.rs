@@ -1,0 +1,74 @@
+//! `umbrage render`: a variant's frames to EXR, with every intermediate target on request.
+
+use super::open_gpu;
+use crate::args::RenderArgs;
+use crate::error::CliError;
+use crate::scenes::find_scene;
+use crate::suite::variants_of;
+use crate::views::{frame_of, path_of, view_of};
+use umbrage_frame::{Image, Layer, write_exr};
+use umbrage_shadows::{Dump, Renderer, Seeding};
+
+pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
+    let (scene, _) = find_scene(&args.scene)?;
+    let variants = variants_of(&args.variants)?;
+    let path = path_of(&scene, &args.view.paths)?;
+    let size = args.view.size.unwrap_or((1280, 720));
+    let mut gpu = open_gpu(&args.view)?;
+    let mut renderer = Renderer::new(&mut gpu, &scene, args.view.map)?;
+    std::fs::create_dir_all(&args.out).map_err(CliError::file(&args.out))?;
+    for number in args.frame..args.frame.saturating_add(args.frames) {
+        let frame = frame_of(path, number)?;
+        let view = view_of(frame, size);
+        for &variant in &variants {
+            let pattern = (Seeding::Frozen, [number, 0]);
+            let stem = format!("{}.{number:04}", variant.name().replace('/', "-"));
+            let (shaded, dumps) = if args.dump {
+                renderer.dump(variant, (&view, &frame.light), pattern)?
+            } else {
+                (renderer.shade_frame(variant, (&view, &frame.light), pattern)?, vec![])
+            };
+            let mask = Image::from_pixels(size.0, size.1, shaded.values);
+            let file = args.out.join(format!("{stem}.exr"));
+            write_exr(&file, &[("visibility.V".to_string(), mask)])?;
+            println!("{}", file.display());
+            for dump in &dumps {
+                let file = args.out.join(format!("{stem}.{}.exr", dump.label));
+                write_exr(&file, &layers(dump))?;
+                println!("{}", file.display());
+            }
+        }
+        if args.dump {
+            let map = renderer.light_map(&frame.light);
+            let file = args.out.join(format!("matrices.{number:04}.json"));
+            let matrices = serde_json::json!({
+                "convention": "column vectors, columns listed one after the other; depth in maps is linear, in metres",
+                "clip_from_world": view.clip_from_world.to_cols_array(),
+                "camera_from_world": view.camera_from_world.to_cols_array(),
+                "yfov_radians": view.yfov_radians,
+                "light_from_world": map.light_from_world.to_cols_array(),
+                "light_clip_from_world": map.clip_from_world.to_cols_array(),
+                "light_kind": format!("{:?}", map.kind),
+                "map_widths_per_metre_or_slope": map.scale,
+                "light_size": map.light_size,
+                "nearest_blocker_metres": map.nearest_blocker,
+                "far_metres": map.far,
+                "reference_gap_metres": map.reference_gap,
+            });
+            std::fs::write(&file, format!("{matrices:#}\n")).map_err(CliError::file(&file))?;
+            println!("{}", file.display());
+        }
+    }
+    Ok(())
+}
+
+/// Channels as viewers expect them: a map is a `Z` or `V`, a normal is `X Y Z`.
+fn layers(dump: &Dump) -> Vec<Layer> {
+    let names: &[&str] = match (dump.label, dump.channels.len()) {
+        ("camera-depth", _) => &["depth.Z"],
+        ("camera-normal", _) => &["normal.X", "normal.Y", "normal.Z"],
+        (label, _) if label.contains("penumbra") => &["penumbra.V"],
+        _ => &["light-depth.Z"],
+    };
+    names.iter().zip(&dump.channels).map(|(name, image)| ((*name).to_string(), image.clone())).collect()
+}

@@ -1,0 +1,77 @@
+//! What a variant costs on a real adapter: timestamp queries round each pass.
+
+use super::window::Window;
+use crate::error::CliError;
+use crate::suite::Plan;
+use std::collections::BTreeMap;
+use umbrage_report::{Cost, PassCost};
+use umbrage_shadows::{Renderer, Seeding, VariantId};
+
+/// Times of one variant in one window.
+pub(crate) struct CostOf {
+    pub(crate) variant: String,
+    /// Milliseconds of each repeated frame, in the order of `passes`.
+    frames: Vec<Vec<f64>>,
+    passes: Vec<&'static str>,
+    kept_ms: f64,
+}
+
+const WARM_UP: usize = 5;
+const REPEATS: usize = 30;
+
+/// The camera's depth is every renderer's own: it is no part of a shadow's cost.
+const NOT_OURS: &str = "depth-prepass";
+
+/// Times every variant on the middle frame. Passes whose results are kept are timed when they run
+/// for the first time in a scene.
+pub(super) fn measure_cost(
+    renderer: &mut Renderer<'_>,
+    window: &Window,
+    plan: &Plan,
+) -> Result<Vec<CostOf>, CliError> {
+    let (view, light) = &window.frames[window.middle()];
+    let mut costs = Vec::new();
+    for &variant in &plan.variants {
+        renderer.forget();
+        let mut cost = CostOf { variant: variant.name(), frames: vec![], passes: vec![], kept_ms: 0.0 };
+        for repeat in 0..WARM_UP + REPEATS {
+            let shaded = renderer.shade_frame(variant, (view, light), (Seeding::Frozen, [0, 0]))?;
+            cost.kept_ms += shaded.timings.iter().filter(|t| t.kept).map(|t| t.ms).sum::<f64>();
+            let ours: Vec<_> = shaded.timings.iter().filter(|t| !t.kept && t.label != NOT_OURS).collect();
+            if repeat >= WARM_UP && !ours.is_empty() {
+                cost.passes = ours.iter().map(|t| t.label).collect();
+                cost.frames.push(ours.iter().map(|t| t.ms).collect());
+            }
+        }
+        costs.push(cost);
+    }
+    Ok(costs)
+}
+
+/// The costs of one variant over all windows, as a scorecard has them.
+pub(super) fn pooled(costs: &[CostOf], variant: VariantId, adapter: &str) -> Option<Cost> {
+    let name = variant.name();
+    let ours: Vec<&CostOf> = costs.iter().filter(|c| c.variant == name && !c.frames.is_empty()).collect();
+    let first = ours.first()?;
+    let totals: Vec<f64> = ours.iter().flat_map(|c| &c.frames).map(|passes| passes.iter().sum()).collect();
+    let mut by_pass: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for (pass, &ms) in ours.iter().flat_map(|c| &c.frames).flat_map(|passes| passes.iter().enumerate()) {
+        by_pass.entry(pass).or_default().push(ms);
+    }
+    let passes = first.passes.iter().zip(by_pass.into_values());
+    let kept: Vec<f64> = ours.iter().map(|c| c.kept_ms).collect();
+    Some(Cost {
+        adapter: adapter.to_string(),
+        frame_ms_median: quantile(totals.clone(), 0.5),
+        frame_ms_p95: quantile(totals, 0.95),
+        passes: passes
+            .map(|(label, ms)| PassCost { name: (*label).to_string(), median_ms: quantile(ms, 0.5) })
+            .collect(),
+        once_per_scene_ms: Some(quantile(kept, 0.5)),
+    })
+}
+
+fn quantile(mut values: Vec<f64>, fraction: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[((values.len() - 1) as f64 * fraction).round() as usize]
+}

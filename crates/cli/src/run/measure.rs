@@ -1,0 +1,74 @@
+//! One variant in one window: shaded, reduced to tile sums, described.
+
+use super::extras;
+use super::panel::{Draw, Reading, shade_panel};
+use super::pictures;
+use super::window::Window;
+use crate::error::CliError;
+use crate::suite::Plan;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use umbrage_frame::Image;
+use umbrage_metrics::{Measurement, TileTable, point_maps, window_tiles};
+use umbrage_report::VariantPictures;
+use umbrage_shadows::{Renderer, Seeding, VariantId};
+
+/// Everything that is kept of a variant in a window.
+#[derive(Clone, Debug)]
+pub(crate) struct Measured {
+    pub(crate) numbers: Numbers,
+    pub(super) pictures: VariantPictures,
+}
+
+/// The small part, for scores and paired tests.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Numbers {
+    /// The anchored reading.
+    pub(crate) anchored: TileTable,
+    /// The pixel reading; none for one frame.
+    pub(crate) pixels: Option<TileTable>,
+    /// What explains the scores, by metric id.
+    pub(crate) extras: BTreeMap<String, Measurement>,
+}
+
+impl Measured {
+    /// Pictures go to disk one by one; numbers stay.
+    pub(super) fn without_pictures(self) -> Self {
+        let none = || Image::from_pixels(0, 0, vec![]);
+        Self { pictures: VariantPictures { mask: none(), error: none(), swim: None }, ..self }
+    }
+}
+
+/// Shades and scores.
+pub(super) fn measure(
+    window: &Window,
+    variant: VariantId,
+    renderer: &mut Renderer<'_>,
+    plan: &Plan,
+) -> Result<Measured, CliError> {
+    let seeds = if variant.info().stochastic { plan.seeds } else { 1 };
+    let draw = Draw { seeding: Seeding::Fresh, seeds, frames: window.frames.len() };
+    let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
+    let anchored = window_tiles(&panel, &window.truth, &window.tiling)?;
+    let maps = point_maps(&panel, &window.truth, &window.tiling)?;
+    let (view, light) = &window.frames[window.middle()];
+    let shipped = (Seeding::Frozen, [window.first + window.middle() as u32, 0]);
+    let values = renderer.shade_frame(variant, (view, light), shipped)?.values;
+    let (width, height) = window.size();
+    let mask = Image::from_pixels(width, height, values);
+    let mut extras = extras::of_panel(window, &panel, &maps)?;
+    extras.extend(extras::of_picture(window, &mask));
+    drop(panel);
+    if variant.info().stochastic {
+        extras.extend(extras::of_patterns(window, (variant, renderer), &maps)?);
+    }
+    let pixels = match &window.pixel_truth {
+        None => None,
+        Some(truth) => {
+            let panel = shade_panel(window, (variant, renderer), Reading::Pixels, draw)?;
+            Some(window_tiles(&panel, truth, &window.tiling)?)
+        }
+    };
+    let pictures = pictures::variant(window, mask, &maps);
+    Ok(Measured { numbers: Numbers { anchored, pixels, extras }, pictures })
+}

@@ -1,0 +1,207 @@
+//! The main job: window by window, variant by variant, from truth to a stored run.
+
+mod cost;
+mod extras;
+mod measure;
+mod panel;
+mod pictures;
+mod scorecard;
+mod unit;
+mod window;
+
+use crate::clock::Now;
+use crate::error::CliError;
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::suite::{Job, Plan};
+use cost::{CostOf, measure_cost};
+use measure::Measured;
+use std::path::PathBuf;
+use umbrage_metrics::Bootstrap;
+use umbrage_reference::{Cache, Tracer};
+use umbrage_report::{RunWriter, Scorecard, WindowPictures};
+use umbrage_scene::CameraPath;
+use umbrage_shadows::{Gpu, Renderer};
+use window::Window;
+
+/// Where things go, and what is kept beside the report.
+pub(crate) struct Settings {
+    pub(crate) cache: PathBuf,
+    pub(crate) out: PathBuf,
+    pub(crate) map_texels: u32,
+    pub(crate) keep_frames: bool,
+    pub(crate) command: String,
+    pub(crate) now: Now,
+}
+
+/// A window with what every variant did in it.
+pub(crate) struct Scored {
+    pub(crate) window: window::Facts,
+    /// In the plan's order.
+    pub(crate) variants: Vec<Measured>,
+}
+
+/// A share of disagreeing anchors above which truth and raster are not about the same thing.
+const DISAGREEMENT_LIMIT: f64 = 0.2;
+
+/// The work in progress.
+struct Run<'a> {
+    plan: &'a Plan,
+    settings: &'a Settings,
+    cache: Cache,
+    units: unit::Units,
+    writer: RunWriter,
+    progress: Progress,
+    bootstrap: Bootstrap,
+    windows_done: usize,
+}
+
+/// Runs a plan and stores the run; pages are made from it afterwards.
+///
+/// Returns the scorecard and what the user should be warned of.
+pub(crate) fn evaluate(
+    plan: &Plan,
+    settings: &Settings,
+    gpu: &mut Gpu,
+) -> Result<(Scorecard, Vec<String>), CliError> {
+    let writer = RunWriter::create(&settings.out)?;
+    let mut run = Run {
+        plan,
+        settings,
+        cache: Cache::open(settings.cache.join("truth"))?,
+        units: unit::Units::open(&settings.cache.join("units"))?,
+        writer,
+        progress: Progress::new(steps(plan)),
+        bootstrap: Bootstrap::default(),
+        windows_done: 0,
+    };
+    let (mut scored, mut costs) = (Vec::new(), Vec::new());
+    for entry in &plan.jobs {
+        run.scene(entry, gpu, (&mut scored, &mut costs))?;
+    }
+    run.progress.finish();
+    if let Some(made) = plan.jobs.iter().find_map(|j| j.made_file.as_ref()) {
+        let path = settings.out.join("scene.toml");
+        std::fs::write(&path, made.to_toml()).map_err(CliError::file(&path))?;
+    }
+    let card = scorecard::assemble(plan, settings, (gpu, &scored, &costs), &run.bootstrap)?;
+    let warnings = warnings(&scored);
+    run.writer.finish(&card)?;
+    if scored.iter().all(|s| s.window.coverage.counted == 0) {
+        let first =
+            scored.first().map(|s| format!("{}, {}", s.window.scene, s.window.path)).unwrap_or_default();
+        return Err(CliError::NothingScored(format!(
+            "no surface point was seen by truth and raster alike ({first})"
+        )));
+    }
+    if let Some(bad) = scored.iter().find(|s| s.window.coverage.disagreement() > DISAGREEMENT_LIMIT) {
+        return Err(CliError::NothingScored(format!(
+            "truth and raster see different surfaces at {:.0} % of the points of {}, {} (limit {:.0} %)",
+            100.0 * bad.window.coverage.disagreement(),
+            bad.window.scene,
+            bad.window.path,
+            100.0 * DISAGREEMENT_LIMIT
+        )));
+    }
+    Ok((card, warnings))
+}
+
+/// Truth counts as one variant.
+fn steps(plan: &Plan) -> u64 {
+    let windows = u64::from((plan.frames / plan.window).max(1));
+    let paths: usize = plan.jobs.iter().map(|j| j.paths.len()).sum();
+    paths as u64 * windows * (1 + plan.variants.len() as u64)
+}
+
+fn warnings(scored: &[Scored]) -> Vec<String> {
+    let place = |s: &Scored| format!("{}, {}", s.window.scene, s.window.path);
+    let empty = scored.iter().filter(|s| s.window.coverage.counted == 0);
+    let mut all: Vec<String> =
+        empty.map(|s| format!("{}: no anchors agreed in this view: check the camera", place(s))).collect();
+    all.extend(scored.iter().flat_map(|s| s.window.notes.iter().map(move |n| format!("{}: {n}", place(s)))));
+    all
+}
+
+impl Run<'_> {
+    fn scene(
+        &mut self,
+        entry: &Job,
+        gpu: &mut Gpu,
+        (scored, costs): (&mut Vec<Scored>, &mut Vec<CostOf>),
+    ) -> Result<(), CliError> {
+        let scene = &entry.scene;
+        for note in &scene.notes {
+            self.progress.note(&format!("{}: {note}", scene.name));
+        }
+        let tracer = Tracer::new(scene)?;
+        let software = gpu.description().is_software();
+        let adapter_key = format!("{:?}", gpu.description());
+        let mut renderer = Renderer::new(gpu, scene, self.settings.map_texels)?;
+        for name in &entry.paths {
+            let path = scene.path(name)?;
+            let window_frames = self.plan.window.min(path.frames.len() as u32);
+            let usable = (path.frames.len() as u32).min(self.plan.frames);
+            for first in (0..usable / window_frames).map(|w| w * window_frames) {
+                let frames = &path.frames[first as usize..(first + window_frames) as usize];
+                self.progress.say(format!("{}, {name}: truth", scene.name));
+                let request = window::Request { scene, path, first, frames };
+                let window = Window::new(&request, (&tracer, &self.cache, &mut renderer), self.plan)?;
+                self.progress.advance(1);
+                let variants = self.window(&window, &mut renderer, &adapter_key)?;
+                if !software {
+                    costs.extend(measure_cost(&mut renderer, &window, self.plan)?);
+                }
+                scored.push(Scored { window: window.facts(path), variants });
+                interrupt::check(&self.settings.cache)?;
+            }
+            self.left_over(path, usable % window_frames);
+        }
+        Ok(())
+    }
+
+    /// All variants of one window.
+    fn window(
+        &mut self,
+        window: &Window,
+        renderer: &mut Renderer<'_>,
+        adapter: &str,
+    ) -> Result<Vec<Measured>, CliError> {
+        let index = self.windows_done;
+        self.writer.window_pictures(
+            index,
+            &WindowPictures { truth: pictures::truth(window), beauty: Some(window.beauty()) },
+        )?;
+        renderer.set_anchors(&window.anchors)?;
+        let mut variants = Vec::new();
+        for (place, &variant) in self.plan.variants.iter().enumerate() {
+            interrupt::check(&self.settings.cache)?;
+            self.progress.say(format!("{}, {}: {}", window.scene, window.path, variant.name()));
+            let key = unit::key(window, variant, (renderer, self.plan, adapter))?;
+            let measured = match self.units.read(&key) {
+                Some(stored) => stored,
+                None => {
+                    let fresh = measure::measure(window, variant, renderer, self.plan)?;
+                    self.units.write(&key, &fresh);
+                    fresh
+                }
+            };
+            self.writer.variant_pictures(index, place, &measured.pictures)?;
+            if self.settings.keep_frames {
+                pictures::keep_frames(&self.settings.out, window, (variant, renderer))?;
+            }
+            variants.push(measured.without_pictures());
+            self.progress.advance(1);
+        }
+        self.windows_done += 1;
+        Ok(variants)
+    }
+
+    fn left_over(&self, path: &CameraPath, frames: u32) {
+        if frames > 0 {
+            self.progress.note(&format!(
+                "{}: the last {frames} frames do not fill a window and are not scored",
+                path.name
+            ));
+        }
+    }
+}

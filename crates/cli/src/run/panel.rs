@@ -1,0 +1,49 @@
+//! What a variant says at every anchor, frame and seed, in both readings.
+
+use super::window::Window;
+use crate::error::CliError;
+use umbrage_metrics::Panel;
+use umbrage_shadows::{Renderer, Seeding, VariantId};
+
+/// Where a value is taken.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reading {
+    /// At the anchor's own place: the last pass is dispatched over the anchors.
+    Anchored,
+    /// At the nearest pixel of a whole frame, as any picture from elsewhere must be read.
+    Pixels,
+}
+
+/// How patterns are drawn, and for how many frames from the start of the window.
+#[derive(Clone, Copy)]
+pub(super) struct Draw {
+    pub(super) seeding: Seeding,
+    pub(super) seeds: u32,
+    pub(super) frames: usize,
+}
+
+/// Shades every frame and seed.
+pub(super) fn shade_panel(
+    window: &Window,
+    (variant, renderer): (VariantId, &mut Renderer<'_>),
+    reading: Reading,
+    draw: Draw,
+) -> Result<Panel, CliError> {
+    let points = window.anchors.len();
+    let mut values = Vec::with_capacity(points * draw.frames * draw.seeds as usize);
+    for (frame, (view, light)) in window.frames.iter().take(draw.frames).enumerate() {
+        let pixels = (reading == Reading::Pixels).then(|| window.anchors.pixels_in(view));
+        for seed in 0..draw.seeds {
+            let pattern = (draw.seeding, [window.first + frame as u32, seed]);
+            match &pixels {
+                None => values.extend(renderer.shade_anchors(variant, (view, light), pattern)?.values),
+                Some(pixels) => {
+                    let shaded = renderer.shade_frame(variant, (view, light), pattern)?.values;
+                    // An anchor outside the picture is never counted.
+                    values.extend(pixels.iter().map(|p| p.map_or(0.0, |p| shaded[p as usize])));
+                }
+            }
+        }
+    }
+    Ok(Panel { points, frames: draw.frames, seeds: draw.seeds as usize, values })
+}

@@ -1,0 +1,303 @@
+//! From what was measured to the scorecard.
+
+use super::cost::{CostOf, pooled};
+use super::{Scored, Settings};
+use crate::error::CliError;
+use crate::suite::Plan;
+use std::collections::BTreeMap;
+use umbrage_metrics::{
+    Bootstrap, METRICS, Measurement, Quantity, TILE_PX, TileTable, cells, edge_crawl, group_letters, paired,
+    swimming_per_frame,
+};
+use umbrage_report::{
+    AdapterCard, Calibration, Measured, MetricCard, OverallCard, PairedCard, Provenance, ResultCard,
+    SCHEMA_VERSION, SceneCard, Scorecard, SettingsCard, TruthCard, VariantCard, WindowCard,
+};
+use umbrage_scene::{AreaLight, Scene};
+use umbrage_shadows::{ConstantBias, Gpu, LightKind, LightMap, ReceiverPlane, VariantId};
+
+/// Metrics whose groups and pairs are shown.
+const COMPARED: [Quantity; 5] =
+    [Quantity::Error, Quantity::Mse, Quantity::Banding, Quantity::Swimming, Quantity::Noise];
+
+/// Everything, in the report's words.
+pub(super) fn assemble(
+    plan: &Plan,
+    settings: &Settings,
+    (gpu, scored, costs): (&Gpu, &[Scored], &[CostOf]),
+    bootstrap: &Bootstrap,
+) -> Result<Scorecard, CliError> {
+    let usable: Vec<&Scored> = scored.iter().filter(|s| s.window.tiles > 0).collect();
+    let mut card = Scorecard {
+        schema_version: SCHEMA_VERSION,
+        provenance: provenance(plan, settings, gpu),
+        metrics: METRICS.iter().map(MetricCard::from).collect(),
+        windows: Vec::new(),
+        variants: plan.variants.iter().map(|&v| variant_card(v, plan)).collect(),
+        results: Vec::new(),
+        overall: Vec::new(),
+        paired: Vec::new(),
+    };
+    for (index, entry) in scored.iter().enumerate() {
+        let results = window_results(index, entry, bootstrap)?;
+        card.windows.push(window_card(entry, &results));
+        card.results.extend(results);
+        card.paired.extend(pairs(&[entry], Some(index), bootstrap)?);
+    }
+    card.overall = overall(plan, (&usable, costs, gpu), bootstrap)?;
+    card.paired.extend(pairs(&usable, None, bootstrap)?);
+    Ok(card)
+}
+
+fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provenance {
+    Provenance {
+        tool_version: env!("CARGO_PKG_VERSION").into(),
+        date: settings.now.rfc3339.clone(),
+        command: settings.command.clone(),
+        suite: plan.name.clone(),
+        adapter: adapter_card(gpu.description()),
+        width: plan.size.0,
+        height: plan.size.1,
+        frames: plan.window,
+        seeds: plan.seeds,
+        tile_px: TILE_PX,
+        shadow_map_texels: settings.map_texels,
+        truth: TruthCard {
+            samples_per_half: plan.samples,
+            basis_samples: plan.basis_samples,
+            method: "shafts: every triangle between point and light against Owen-scrambled Sobol samples; rays where \
+                     there are too many"
+                .into(),
+        },
+        scenes: plan.jobs.iter().map(|job| scene_card(&job.scene, settings.map_texels)).collect(),
+        notes: vec![format!("paths of {} frames in windows of {}", plan.frames, plan.window)],
+    }
+}
+
+/// What a report says about an adapter.
+fn adapter_card(adapter: &umbrage_shadows::AdapterDescription) -> AdapterCard {
+    AdapterCard {
+        name: adapter.name.clone(),
+        driver: adapter.driver.clone(),
+        backend: adapter.backend.clone(),
+        device_type: adapter.device_type.into(),
+        is_cpu: adapter.is_software(),
+    }
+}
+
+fn scene_card(scene: &Scene, texels: u32) -> SceneCard {
+    let light = &scene.lights[0];
+    let map = LightMap::new(scene, light, texels);
+    let projection = match map.kind {
+        LightKind::Sun => format!("orthographic, {:.4} m wide", 1.0 / map.scale),
+        LightKind::Local => {
+            format!("perspective, {:.1} degrees", 2.0 * (0.5 / map.scale).atan().to_degrees())
+        }
+    };
+    let hash: String = scene.content_hash().iter().take(16).map(|b| format!("{b:02x}")).collect();
+    SceneCard {
+        name: scene.name.clone(),
+        content_hash: hash,
+        light: describe_light(light),
+        shadow_map: format!("{projection}, {texels}² texels of {:.2} mm", 1000.0 * map.texel_world()),
+        notes: scene.notes.clone(),
+    }
+}
+
+fn describe_light(light: &AreaLight) -> String {
+    match *light {
+        AreaLight::Sun { angular_diameter_radians, direction_to_light } => format!(
+            "sun, {:.3} degrees across, elevation {:.1} degrees",
+            angular_diameter_radians.to_degrees(),
+            direction_to_light.y.asin().to_degrees()
+        ),
+        AreaLight::Disk { radius_world, .. } => format!("disk, radius {radius_world} m"),
+        AreaLight::Rect { half_u, half_v, .. } => {
+            format!("rectangle, {:.3} x {:.3} m", 2.0 * half_u.length(), 2.0 * half_v.length())
+        }
+        AreaLight::Sphere { radius_world, .. } => format!("sphere, radius {radius_world} m"),
+    }
+}
+
+fn variant_card(id: VariantId, plan: &Plan) -> VariantCard {
+    let info = id.info();
+    let bias = id.calibration.default_bias();
+    let passes = id.passes(&plan.jobs[0].scene);
+    VariantCard {
+        name: id.variant.name.into(),
+        technique: id.variant.name.into(),
+        calibration: match id.calibration {
+            umbrage_shadows::Calibration::AsPrinted => Calibration::AsPrinted,
+            umbrage_shadows::Calibration::LightMatched => Calibration::LightMatched,
+        },
+        taps: info.taps,
+        passes: passes.len() as u32,
+        settings: SettingsCard {
+            bias_constant: match bias.constant {
+                ConstantBias::World(metres) => format!("{metres} m"),
+                ConstantBias::PerDistance(part) => format!("{part} of the light's distance"),
+            },
+            bias_normal_offset: format!("{} texels", bias.normal_offset_texels),
+            bias_receiver_plane: match bias.receiver_plane {
+                ReceiverPlane::Off => "off".into(),
+                ReceiverPlane::On { max_slope } => format!("at texel centres, slope up to {max_slope}"),
+            },
+            search_radius: id.kernels(),
+            kernel_cap: "the search radius".into(),
+            radius_convention: "radius of the disc in which the taps lie".into(),
+            outside_the_map: "lit".into(),
+            more: BTreeMap::from([("passes".to_string(), passes.join(", "))]),
+        },
+        source: info.document.into(),
+        sentence: info.title.into(),
+    }
+}
+
+fn window_results(window: usize, entry: &Scored, bootstrap: &Bootstrap) -> Result<Vec<ResultCard>, CliError> {
+    let mut results = Vec::new();
+    for (variant, measured) in entry.variants.iter().enumerate() {
+        let numbers = &measured.numbers;
+        let mut scores = scores(&[&numbers.anchored], numbers.pixels.as_ref().map(|p| vec![p]), bootstrap)?;
+        scores.extend(numbers.extras.iter().map(|(id, &m)| (id.clone(), Measured::from(m))));
+        let per_frame_swimming = swimming_per_frame(&numbers.anchored, bootstrap)?;
+        results.push(ResultCard { window, variant, scores, per_frame_swimming, groups: BTreeMap::new() });
+    }
+    for quantity in COMPARED {
+        let letters = letters(&[entry], quantity, bootstrap)?;
+        for (result, letter) in results.iter_mut().zip(letters) {
+            result.groups.insert(quantity.id().into(), letter);
+        }
+    }
+    Ok(results)
+}
+
+/// Every pooled quantity, and edge crawl where both readings were made.
+fn scores(
+    anchored: &[&TileTable],
+    pixels: Option<Vec<&TileTable>>,
+    bootstrap: &Bootstrap,
+) -> Result<BTreeMap<String, Measured>, CliError> {
+    let pooled = cells(anchored, bootstrap)?;
+    let mut scores: BTreeMap<String, Measured> =
+        pooled.iter().map(|(quantity, m)| (quantity.id().to_string(), Measured::from(m))).collect();
+    let crawl = match pixels {
+        Some(pixels) => Measured::from(edge_crawl(&pixels, anchored, bootstrap)?),
+        None => Measured::no(umbrage_metrics::Missing::OneFrame.to_string()),
+    };
+    scores.insert("edge_crawl".into(), crawl);
+    Ok(scores)
+}
+
+/// Per variant, the tables of its windows.
+fn tables<'a>(scored: &[&'a Scored]) -> Vec<Vec<&'a TileTable>> {
+    let variants = scored.first().map_or(0, |s| s.variants.len());
+    (0..variants).map(|v| scored.iter().map(|s| &s.variants[v].numbers.anchored).collect()).collect()
+}
+
+fn letters(scored: &[&Scored], quantity: Quantity, bootstrap: &Bootstrap) -> Result<Vec<String>, CliError> {
+    let tables = tables(scored);
+    Ok(group_letters(&tables, quantity, bootstrap)?)
+}
+
+/// Paired differences between every two variants.
+fn pairs(
+    scored: &[&Scored],
+    window: Option<usize>,
+    bootstrap: &Bootstrap,
+) -> Result<Vec<PairedCard>, CliError> {
+    let tables = tables(scored);
+    let mut cards = Vec::new();
+    for a in 0..tables.len() {
+        for b in a + 1..tables.len() {
+            for quantity in COMPARED {
+                if let Measurement::Measured(difference) =
+                    paired(&tables[a], &tables[b], quantity, bootstrap)?
+                {
+                    let resolved = !difference.contains(0.0);
+                    cards.push(PairedCard {
+                        a,
+                        b,
+                        window,
+                        metric: quantity.id().into(),
+                        difference,
+                        resolved,
+                    });
+                }
+            }
+        }
+    }
+    Ok(cards)
+}
+
+fn window_card(entry: &Scored, results: &[ResultCard]) -> WindowCard {
+    let facts = &entry.window;
+    let noise = results.first().and_then(|r| r.scores.get("reference_noise")?.score());
+    WindowCard {
+        scene: facts.scene.clone(),
+        path: facts.path.clone(),
+        first_frame: facts.first,
+        frames: facts.frames,
+        speed: facts.title.clone(),
+        anchors: facts.coverage.counted as u64,
+        tiles: facts.tiles as u64,
+        coverage: facts.coverage.share(),
+        disagreement: facts.coverage.disagreement(),
+        reference_noise: noise.map_or(0.0, |s| s.value),
+        truth_secs: facts.truth_secs,
+        notes: facts.notes.clone(),
+    }
+}
+
+fn overall(
+    plan: &Plan,
+    (usable, costs, gpu): (&[&Scored], &[CostOf], &Gpu),
+    bootstrap: &Bootstrap,
+) -> Result<Vec<OverallCard>, CliError> {
+    if usable.is_empty() {
+        return Ok(Vec::new());
+    }
+    let anchored = tables(usable);
+    let mut cards = Vec::new();
+    for (index, &variant) in plan.variants.iter().enumerate() {
+        let pixels: Option<Vec<&TileTable>> =
+            usable.iter().map(|s| s.variants[index].numbers.pixels.as_ref()).collect();
+        let cost = pooled(costs, variant, &gpu.description().name);
+        let note = gpu.description().is_software().then(|| "not a cost: software adapter".to_string());
+        let mut scores = scores(&anchored[index], pixels, bootstrap)?;
+        scores.extend(mean_extras(usable, index));
+        cards.push(OverallCard { variant: index, scores, groups: BTreeMap::new(), cost, cost_note: note });
+    }
+    for quantity in COMPARED {
+        for (card, letter) in cards.iter_mut().zip(letters(usable, quantity, bootstrap)?) {
+            card.groups.insert(quantity.id().into(), letter);
+        }
+    }
+    Ok(cards)
+}
+
+/// What explains the scores, averaged over the windows that have it; intervals of independent
+/// windows add in quadrature.
+fn mean_extras(usable: &[&Scored], variant: usize) -> BTreeMap<String, Measured> {
+    let mut found: BTreeMap<&str, Vec<umbrage_metrics::Score>> = BTreeMap::new();
+    for (id, measurement) in usable.iter().flat_map(|s| &s.variants[variant].numbers.extras) {
+        found.entry(id).or_default().extend(measurement.score());
+    }
+    let mean = |scores: &[umbrage_metrics::Score]| {
+        let n = scores.len() as f64;
+        let value = scores.iter().map(|s| s.value).sum::<f64>() / n;
+        let half = |side: fn(&umbrage_metrics::Score) -> f64| {
+            scores.iter().map(|s| side(s).powi(2)).sum::<f64>().sqrt() / n
+        };
+        umbrage_metrics::Score {
+            value,
+            low: value - half(|s| s.value - s.low),
+            high: value + half(|s| s.high - s.value),
+        }
+    };
+    let card = |(id, scores): (&str, Vec<umbrage_metrics::Score>)| {
+        let measured =
+            if scores.is_empty() { Measured::no("in no window") } else { Measured::Score(mean(&scores)) };
+        (id.to_string(), measured)
+    };
+    found.into_iter().map(card).collect()
+}

@@ -1,0 +1,126 @@
+//! Results on disk, by content: a variant in a window that was measured before is not measured
+//! again, and a killed run takes up where it was. One folder a unit, written under a temporary
+//! name and renamed; a damaged one is measured again.
+
+use super::measure::{Measured, Numbers};
+use super::window::Window;
+use crate::error::CliError;
+use crate::suite::Plan;
+use std::path::{Path, PathBuf};
+use umbrage_frame::{Image, read_exr, write_exr};
+use umbrage_report::VariantPictures;
+use umbrage_shadows::{Renderer, Seeding, VariantId};
+
+/// A folder of measured units that may be shared by processes.
+pub(super) struct Units {
+    folder: PathBuf,
+}
+
+/// Names of the files of a unit.
+const NUMBERS: &str = "numbers.json";
+const PICTURES: &str = "pictures.exr";
+const CHECKSUM: &str = "checksum";
+
+/// The content that a unit follows from: truth, views, the recorded passes with their shaders and
+/// constants, adapter and driver, seeds, tool version.
+pub(super) fn key(
+    window: &Window,
+    variant: VariantId,
+    (renderer, plan, adapter): (&mut Renderer<'_>, &Plan, &str),
+) -> Result<String, CliError> {
+    let mut hasher = blake3::Hasher::new();
+    let mut add = |part: &str| {
+        hasher.update(&(part.len() as u64).to_le_bytes());
+        hasher.update(part.as_bytes());
+    };
+    add(concat!("umbrage unit 1 ", env!("CARGO_PKG_VERSION")));
+    add(adapter);
+    add(&window.truth_key);
+    add(&variant.name());
+    add(&format!("{} {:?} {}", plan.seeds, plan.size, window.first));
+    for (view, light) in &window.frames {
+        add(&format!("{view:?} {light:?}"));
+    }
+    for seeding in [Seeding::Fresh, Seeding::Frozen, Seeding::Animated] {
+        let (view, light) = &window.frames[0];
+        add(&format!("{:?}", renderer.recording(variant, (view, light), (seeding, [0, 0]))?));
+    }
+    Ok(hasher.finalize().to_hex().to_string())
+}
+
+impl Units {
+    /// Opens the folder and clears away what killed runs left behind.
+    pub(super) fn open(folder: &Path) -> Result<Self, CliError> {
+        std::fs::create_dir_all(folder).map_err(CliError::file(folder))?;
+        let units = Self { folder: folder.into() };
+        let entries = std::fs::read_dir(folder).map_err(CliError::file(folder))?;
+        for entry in entries.flatten() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let old = entry
+                .metadata()
+                .and_then(|m| m.modified())
+                .is_ok_and(|t| t.elapsed().is_ok_and(|age| age > std::time::Duration::from_secs(24 * 3600)));
+            if name.starts_with("tmp-") && old {
+                let _ = std::fs::remove_dir_all(entry.path());
+            }
+        }
+        Ok(units)
+    }
+
+    /// A unit that is there and whole.
+    pub(super) fn read(&self, key: &str) -> Option<Measured> {
+        let folder = self.path(key);
+        let text = std::fs::read(folder.join(NUMBERS)).ok()?;
+        let picture_bytes = std::fs::read(folder.join(PICTURES)).ok()?;
+        let stored = std::fs::read_to_string(folder.join(CHECKSUM)).ok()?;
+        if stored.trim() != checksum(&text, &picture_bytes) {
+            return None;
+        }
+        let numbers: Numbers = serde_json::from_slice(&text).ok()?;
+        let mut layers = read_exr(&folder.join(PICTURES)).ok()?;
+        let mut take = |name: &str| -> Option<Image<f32>> {
+            let place = layers.iter().position(|l| l.0 == name)?;
+            Some(layers.swap_remove(place).1)
+        };
+        let pictures =
+            VariantPictures { mask: take("visibility.V")?, error: take("error.V")?, swim: take("swim.V") };
+        Some(Measured { numbers, pictures })
+    }
+
+    /// Stores a unit. A disk that does not take it loses nothing but time: the run goes on.
+    pub(super) fn write(&self, key: &str, unit: &Measured) {
+        let temporary = self.folder.join(format!("tmp-{}-{}", std::process::id(), &key[..16]));
+        let stored = self.fill(&temporary, unit).and_then(|()| {
+            let path = self.path(key);
+            std::fs::create_dir_all(path.parent()?).ok()?;
+            // Another process may have been faster: its unit holds the same.
+            std::fs::rename(&temporary, &path).ok()
+        });
+        if stored.is_none() {
+            let _ = std::fs::remove_dir_all(&temporary);
+        }
+    }
+
+    fn fill(&self, folder: &Path, unit: &Measured) -> Option<()> {
+        std::fs::create_dir_all(folder).ok()?;
+        let text = serde_json::to_vec(&unit.numbers).ok()?;
+        std::fs::write(folder.join(NUMBERS), &text).ok()?;
+        let VariantPictures { mask, error, swim } = &unit.pictures;
+        let mut layers =
+            vec![("visibility.V".to_string(), mask.clone()), ("error.V".to_string(), error.clone())];
+        layers.extend(swim.clone().map(|swim| ("swim.V".to_string(), swim)));
+        write_exr(&folder.join(PICTURES), &layers).ok()?;
+        let pictures = std::fs::read(folder.join(PICTURES)).ok()?;
+        std::fs::write(folder.join(CHECKSUM), checksum(&text, &pictures)).ok()
+    }
+
+    fn path(&self, key: &str) -> PathBuf {
+        self.folder.join(&key[..2]).join(&key[2..])
+    }
+}
+
+fn checksum(numbers: &[u8], pictures: &[u8]) -> String {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&(numbers.len() as u64).to_le_bytes()).update(numbers).update(pictures);
+    hasher.finalize().to_hex().to_string()
+}

@@ -1,0 +1,292 @@
+//! One window: its views, anchors, truth and tiles; everything that all variants share.
+
+use crate::error::CliError;
+use crate::suite::Plan;
+use crate::views::view_of;
+use glam::Vec3;
+use std::time::Instant;
+use umbrage_frame::{AgreementLimits, Anchors, Image, View};
+use umbrage_metrics::{Coverage, PanelTruth, Region, TILE_PX, Tiling, counted};
+use umbrage_reference::{Cache, GroundTruth, Method, Points, PrimaryHits, Source, Tracer, TruthSettings};
+use umbrage_scene::{AreaLight, CameraPath, PathFrame, Scene};
+use umbrage_shadows::Renderer;
+
+/// What a window is made from.
+pub(super) struct Request<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) path: &'a CameraPath,
+    pub(super) first: u32,
+    pub(super) frames: &'a [PathFrame],
+}
+
+/// A window, ready for its variants.
+pub(super) struct Window {
+    pub(super) scene: String,
+    pub(super) path: String,
+    pub(super) first: u32,
+    /// View and light of each frame.
+    pub(super) frames: Vec<(View, AreaLight)>,
+    pub(super) anchors: Anchors,
+    /// At the anchors.
+    pub(super) truth: PanelTruth,
+    /// At the pixels that penumbra anchors fall into, frame by frame; none for a window of one frame.
+    pub(super) pixel_truth: Option<PanelTruth>,
+    pub(super) tiling: Tiling,
+    /// Of everything that truth depends on.
+    pub(super) truth_key: String,
+    /// Reflectance and cosine to the light per pixel of the middle frame.
+    pub(super) shading: Image<Vec3>,
+    coverage: Coverage,
+    truth_secs: Option<f64>,
+    notes: Vec<String>,
+}
+
+/// What a scorecard says about a window.
+pub(crate) struct Facts {
+    pub(crate) scene: String,
+    pub(crate) path: String,
+    pub(crate) first: u32,
+    pub(crate) frames: u32,
+    pub(crate) title: String,
+    pub(crate) coverage: Coverage,
+    pub(crate) tiles: usize,
+    pub(crate) truth_secs: Option<f64>,
+    pub(crate) notes: Vec<String>,
+}
+
+/// Truth of the pixel reading: unbiased at any number of samples, and only used for the difference
+/// between the two readings.
+const PIXEL_SAMPLES: u32 = 64;
+
+/// Sun discs smaller than a sample could resolve are exact anyway; these seeds keep the estimates
+/// of anchors and pixels apart.
+const ANCHOR_SEED: u64 = 1;
+const PIXEL_SEED: u64 = 2;
+
+impl Window {
+    /// Finds anchors, truth, agreement and tiles.
+    pub(super) fn new(
+        request: &Request<'_>,
+        (tracer, cache, renderer): (&Tracer, &Cache, &mut Renderer<'_>),
+        plan: &Plan,
+    ) -> Result<Self, CliError> {
+        let started = Instant::now();
+        let frames: Vec<(View, AreaLight)> =
+            request.frames.iter().map(|f| (view_of(f, plan.size), f.light)).collect();
+        let (middle_view, middle_light) = frames[frames.len() / 2];
+        let hits = tracer.primary(&middle_view);
+        let anchors = Anchors::of(&hits.gbuffer);
+        let mut truths = Truths { tracer, cache, computed: false, notes: Vec::new(), key: String::new() };
+        let (truth, facing) = truths.at_anchors(&hits.points(), &frames, plan)?;
+        let mut agreements = Vec::with_capacity(frames.len());
+        for (view, light) in &frames {
+            agreements.push(anchors.agreement(&renderer.gbuffer(view, light)?, AgreementLimits::default()));
+        }
+        let (counts, coverage) = counted(&anchors, &facing, &agreements)?;
+        let tiling = Tiling::new(&anchors, &truth, &counts, TILE_PX)?;
+        let pixel_truth = match frames.len() {
+            1 => None,
+            _ => Some(truths.at_pixels(&frames, (&anchors, &truth, &tiling))?),
+        };
+        let Truths { computed, notes, key, .. } = truths;
+        Ok(Self {
+            scene: request.scene.name.clone(),
+            path: request.path.name.clone(),
+            first: request.first,
+            shading: shading(request.scene, &hits, &middle_light),
+            frames,
+            anchors,
+            truth,
+            pixel_truth,
+            tiling,
+            truth_key: key,
+            coverage,
+            truth_secs: computed.then(|| started.elapsed().as_secs_f64()),
+            notes,
+        })
+    }
+
+    /// Index of the middle frame.
+    pub(super) fn middle(&self) -> usize {
+        self.frames.len() / 2
+    }
+
+    /// Picture size.
+    pub(super) fn size(&self) -> (u32, u32) {
+        (self.anchors.view.width, self.anchors.view.height)
+    }
+
+    /// The scene lit by the true shadow.
+    pub(super) fn beauty(&self) -> Image<[f32; 3]> {
+        let lit = self.spread(|point| self.truth.mean(point) as f32, 0.0);
+        self.shaded(&lit)
+    }
+
+    /// The scene lit through a mask: a white light over a dim sky, display-linear.
+    pub(super) fn shaded(&self, mask: &Image<f32>) -> Image<[f32; 3]> {
+        const SKY: f32 = 0.15;
+        let pixels = self.shading.pixels().iter().zip(mask.pixels());
+        let (width, height) = self.size();
+        let shade = |(surface, v): (&Vec3, &f32)| {
+            // The cosine is folded into the length of the colour; see `shading`.
+            (*surface * (SKY + (1.0 - SKY) * v.clamp(0.0, 1.0))).to_array()
+        };
+        Image::from_pixels(width, height, pixels.map(shade).collect())
+    }
+
+    /// A value per point as a picture of the middle frame; `elsewhere` where there is no anchor.
+    pub(super) fn spread(&self, value: impl Fn(usize) -> f32, elsewhere: f32) -> Image<f32> {
+        let (width, height) = self.size();
+        let mut image = Image::filled(width, height, elsewhere);
+        for (point, &pixel) in self.anchors.pixel.iter().enumerate() {
+            image.pixels_mut()[pixel as usize] = value(point);
+        }
+        image
+    }
+
+    /// Whether a point was scored.
+    pub(super) fn is_counted(&self, point: usize) -> bool {
+        self.tiling.regions[point] != Region::LeftOut
+    }
+
+    /// For the scorecard.
+    pub(super) fn facts(&self, path: &CameraPath) -> Facts {
+        Facts {
+            scene: self.scene.clone(),
+            path: self.path.clone(),
+            first: self.first,
+            frames: self.frames.len() as u32,
+            title: path.title.clone(),
+            coverage: self.coverage,
+            tiles: self.tiling.tiles.iter().filter(|t| !t.penumbra.is_empty()).count(),
+            truth_secs: self.truth_secs,
+            notes: self.notes.clone(),
+        }
+    }
+}
+
+/// Truth at anchors and at pixels, through the cache.
+struct Truths<'a> {
+    tracer: &'a Tracer,
+    cache: &'a Cache,
+    computed: bool,
+    notes: Vec<String>,
+    key: String,
+}
+
+impl Truths<'_> {
+    fn get(
+        &mut self,
+        points: &Points,
+        light: &AreaLight,
+        settings: TruthSettings,
+    ) -> Result<GroundTruth, CliError> {
+        let key = self.tracer.truth_key(points, light, &settings);
+        self.key = format!("{}{key:?}", self.key);
+        let (truth, source) = self.cache.truth(key, || self.tracer.truth(points, light, &settings))?;
+        match source {
+            Source::Stored => {}
+            Source::Computed => self.computed = true,
+            Source::Repaired => {
+                self.computed = true;
+                self.notes.push("a cached truth was damaged and has been computed again".into());
+            }
+            Source::NotStored(reason) => {
+                self.computed = true;
+                self.notes
+                    .push(format!("truth could not be cached ({reason}): the next run computes it again"));
+            }
+        }
+        Ok(truth)
+    }
+
+    /// Truth at the anchors, once, or once a frame where the light moves; and which face the light
+    /// in all of them.
+    fn at_anchors(
+        &mut self,
+        points: &Points,
+        frames: &[(View, AreaLight)],
+        plan: &Plan,
+    ) -> Result<(PanelTruth, Vec<bool>), CliError> {
+        let settings = TruthSettings {
+            samples: plan.samples,
+            basis_samples: plan.basis_samples,
+            seed: ANCHOR_SEED,
+            method: Method::Shafts,
+            ..TruthSettings::default()
+        };
+        let middle = self.get(points, &frames[frames.len() / 2].1, settings)?;
+        let mut facing = middle.facing.clone();
+        let moves = frames.iter().any(|f| f.1 != frames[0].1);
+        let (mut halves, count) = if moves { ([vec![], vec![]], frames.len()) } else { (middle.halves, 1) };
+        if moves {
+            for (_, light) in frames {
+                let truth = self.get(points, light, TruthSettings { basis_samples: 0, ..settings })?;
+                let [first, second] = truth.halves;
+                halves[0].extend(first);
+                halves[1].extend(second);
+                facing.iter_mut().zip(&truth.facing).for_each(|(all, &now)| *all &= now);
+            }
+        }
+        Ok((PanelTruth { frames: count, halves, basis: middle.basis, variance: middle.variance }, facing))
+    }
+
+    /// Truth at the surface of the pixel that each penumbra anchor falls into, frame by frame.
+    /// Points outside the penumbra keep the anchor's own: the pixel reading is not scored there.
+    fn at_pixels(
+        &mut self,
+        frames: &[(View, AreaLight)],
+        (anchors, truth, tiling): (&Anchors, &PanelTruth, &Tiling),
+    ) -> Result<PanelTruth, CliError> {
+        let count = anchors.len();
+        let mut halves = [Vec::with_capacity(count * frames.len()), Vec::with_capacity(count * frames.len())];
+        let wanted: Vec<usize> = (0..count).filter(|&p| tiling.regions[p] == Region::Penumbra).collect();
+        for (frame, (view, light)) in frames.iter().enumerate() {
+            let hits = self.tracer.primary(view);
+            let pixels = anchors.pixels_in(view);
+            let seen: Vec<(usize, usize)> = wanted
+                .iter()
+                .filter_map(|&point| Some((point, pixels[point]? as usize)))
+                .filter(|&(_, pixel)| hits.gbuffer.is_hit(pixel))
+                .collect();
+            let pick = |image: &Image<Vec3>| seen.iter().map(|&(_, pixel)| image.pixels()[pixel]).collect();
+            let points = Points {
+                position: pick(&hits.gbuffer.position),
+                normal: pick(&hits.gbuffer.normal),
+                triangle: seen.iter().map(|&(_, pixel)| hits.triangle.pixels()[pixel]).collect(),
+            };
+            let settings = TruthSettings {
+                samples: PIXEL_SAMPLES,
+                replicates: 2,
+                basis_samples: 0,
+                seed: PIXEL_SEED + frame as u64,
+                method: Method::Shafts,
+            };
+            let at_pixels = self.get(&points, light, settings)?;
+            for (half, values) in halves.iter_mut().enumerate() {
+                let start = values.len();
+                values.extend((0..count).map(|point| truth.half(half, frame, point)));
+                for (&(point, _), &value) in seen.iter().zip(&at_pixels.halves[half]) {
+                    values[start + point] = value;
+                }
+            }
+        }
+        let (basis, variance) = (truth.basis.clone(), truth.variance.clone());
+        Ok(PanelTruth { frames: frames.len(), halves, basis, variance })
+    }
+}
+
+/// Reflectance times the cosine to the light's centre, per pixel; a dim grey where nothing is seen.
+fn shading(scene: &Scene, hits: &PrimaryHits, light: &AreaLight) -> Image<Vec3> {
+    let gbuffer = &hits.gbuffer;
+    let (width, height) = (gbuffer.view.width, gbuffer.view.height);
+    let surface = |pixel: usize| {
+        let Some(material) = scene.materials.get(hits.material.pixels()[pixel] as usize) else {
+            return Vec3::splat(0.3);
+        };
+        let normal = gbuffer.normal.pixels()[pixel];
+        let cosine = normal.dot(light.direction_from(gbuffer.position.pixels()[pixel])).max(0.0);
+        material.albedo * (0.3 + 0.7 * cosine)
+    };
+    Image::from_pixels(width, height, (0..(width * height) as usize).map(surface).collect())
+}

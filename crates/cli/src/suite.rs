@@ -1,0 +1,175 @@
+//! What is evaluated: scenes with their paths, and how large and long.
+
+use crate::args::EvaluateArgs;
+use crate::error::CliError;
+use crate::scenes::find_scene;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use umbrage_scene::{Scene, SceneFile, suggest};
+use umbrage_shadows::{VARIANTS, VariantId, select_variants};
+
+/// The standard suite, compiled in.
+const STANDARD: &str = include_str!("../../../scenes/standard.toml");
+
+/// A suite file.
+#[derive(Deserialize, Debug, Clone)]
+#[serde(deny_unknown_fields)]
+struct SuiteFile {
+    /// Names the run.
+    name: String,
+    /// Pixels: `[width, height]`.
+    #[serde(default)]
+    size: Option<[u32; 2]>,
+    /// Scenes and their paths.
+    scene: Vec<SuiteScene>,
+}
+
+#[derive(Deserialize, Debug, Clone)]
+#[serde(deny_unknown_fields)]
+struct SuiteScene {
+    /// A standard scene, or a path beside the suite file.
+    name: PathBuf,
+    /// Paths through it; all of the scene's when empty.
+    #[serde(default)]
+    paths: Vec<String>,
+}
+
+/// A scene with the names of the paths that are evaluated.
+pub(crate) struct Job {
+    pub(crate) scene: Scene,
+    pub(crate) paths: Vec<String>,
+    /// Made for a bare model: the user edits it for the next run.
+    pub(crate) made_file: Option<SceneFile>,
+}
+
+/// Everything that is decided before the work begins.
+pub(crate) struct Plan {
+    pub(crate) name: String,
+    pub(crate) jobs: Vec<Job>,
+    pub(crate) variants: Vec<VariantId>,
+    pub(crate) size: (u32, u32),
+    /// Frames of each path.
+    pub(crate) frames: u32,
+    /// Frames of a window.
+    pub(crate) window: u32,
+    pub(crate) seeds: u32,
+    /// Truth samples in each half.
+    pub(crate) samples: u32,
+    pub(crate) basis_samples: u32,
+}
+
+/// Frames of a window, unless the path is shorter (METRICS: T is part of the score).
+const WINDOW: u32 = 16;
+
+impl Plan {
+    /// Resolves the arguments.
+    pub(crate) fn new(args: &EvaluateArgs) -> Result<Self, CliError> {
+        let file = suite_of(args)?;
+        let jobs = jobs_of(args, &file)?;
+        let quick = args.quick;
+        let frames = args.frames.unwrap_or(if quick { 8 } else { WINDOW });
+        let size = args.view.size.or(file.size.map(|[w, h]| (w, h)).filter(|_| !quick));
+        Ok(Self {
+            name: if quick { format!("{}-quick", file.name) } else { file.name },
+            jobs,
+            variants: variants_of(&args.variants)?,
+            size: size.unwrap_or(if quick { (192, 108) } else { (320, 180) }),
+            frames,
+            window: frames.min(WINDOW),
+            seeds: args.seeds.unwrap_or(if quick { 2 } else { 4 }),
+            samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
+            basis_samples: if quick { 256 } else { 1024 },
+        })
+    }
+}
+
+fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {
+    if let [only] = args.what.as_slice()
+        && only.extension().is_some_and(|e| e == "toml")
+        && !is_scene_file(only)
+    {
+        let text = std::fs::read_to_string(only).map_err(CliError::file(only))?;
+        let mut suite = parse(&text, only)?;
+        // Scenes of a suite file lie beside it.
+        let folder = only.parent().unwrap_or(Path::new("")).to_owned();
+        for scene in &mut suite.scene {
+            let beside = folder.join(&scene.name);
+            if beside.exists() {
+                scene.name = beside;
+            }
+        }
+        return Ok(suite);
+    }
+    let standard = parse(STANDARD, Path::new("scenes/standard.toml"))?;
+    if args.what.is_empty() {
+        return Ok(standard);
+    }
+    // A standard scene brings the standard paths, anything else all of its own.
+    let scene = |what: &PathBuf| {
+        let known = standard.scene.iter().find(|s| s.name == *what);
+        known.cloned().unwrap_or_else(|| SuiteScene { name: what.clone(), paths: vec![] })
+    };
+    let stem =
+        |p: &PathBuf| p.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned());
+    let name = args.what.iter().map(stem).collect::<Vec<_>>().join("+");
+    Ok(SuiteFile { name, size: standard.size, scene: args.what.iter().map(scene).collect() })
+}
+
+/// A suite names scenes; a scene file has geometry.
+fn is_scene_file(path: &Path) -> bool {
+    std::fs::read_to_string(path)
+        .is_ok_and(|text| text.lines().any(|line| line.trim_start().starts_with("[geometry]")))
+}
+
+fn parse(text: &str, path: &Path) -> Result<SuiteFile, CliError> {
+    toml::from_str(text).map_err(|e| CliError::Suite { path: path.into(), message: e.to_string() })
+}
+
+fn jobs_of(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<Job>, CliError> {
+    let mut jobs = Vec::new();
+    let quick_scene =
+        |s: &&SuiteScene| !args.quick || !args.what.is_empty() || s.name == Path::new("colonnade");
+    for entry in file.scene.iter().filter(quick_scene) {
+        let (scene, made_file) = find_scene(&entry.name)?;
+        if !args.scenes.is_empty() && !args.scenes.contains(&scene.name) {
+            continue;
+        }
+        let wanted = if args.view.paths.is_empty() { &entry.paths } else { &args.view.paths };
+        let all = || scene.paths.iter().map(|p| p.name.clone()).collect();
+        let paths: Vec<String> = if wanted.is_empty() { all() } else { wanted.clone() };
+        for path in &paths {
+            scene.path(path)?;
+        }
+        jobs.push(Job { scene, paths, made_file });
+    }
+    if jobs.is_empty() {
+        let names = file.scene.iter().map(|s| s.name.display().to_string()).collect::<Vec<_>>().join(", ");
+        return Err(CliError::Usage(format!(
+            "the suite \"{}\" has no such scene; it has {names}",
+            file.name
+        )));
+    }
+    Ok(jobs)
+}
+
+/// The variants of the names given, in display order; all without names.
+pub(crate) fn variants_of(names: &[String]) -> Result<Vec<VariantId>, CliError> {
+    let every: Vec<VariantId> = VARIANTS.iter().flat_map(|v| select_variants(v.name)).collect();
+    if names.is_empty() {
+        return Ok(every);
+    }
+    let mut wanted: Vec<String> = Vec::new();
+    for name in names {
+        let found = select_variants(name);
+        if found.is_empty() {
+            let known: Vec<String> = every.iter().map(VariantId::name).collect();
+            let candidates = known.iter().map(String::as_str).chain(VARIANTS.iter().map(|v| v.name));
+            let hint =
+                suggest(name, candidates).map(|s| format!("; did you mean \"{s}\"?")).unwrap_or_default();
+            let message = format!("unknown variant \"{name}\"{hint} `umbrage list variants` shows all");
+            return Err(CliError::Usage(message));
+        }
+        wanted.extend(found.iter().map(VariantId::name));
+    }
+    Ok(every.into_iter().filter(|id| wanted.contains(&id.name())).collect())
+}
