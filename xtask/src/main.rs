@@ -1,2 +1,37 @@
-//! stub
-fn main() {}
+//! Automation: `cargo xtask evaluate | test | ci | layers | bless`.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program that talks to people")]
+
+mod adapter;
+mod layers;
+mod steps;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "cargo xtask COMMAND
+
+  evaluate [ARGS]  build the program, install a software Vulkan driver if there is no adapter, and run
+                   `umbrage evaluate ARGS`: renders, scores and writes a report
+  test             the same driver check, then all tests
+  ci               formatting, lints, layers, duplicate versions, documentation, all tests
+  layers           check the dependency invariants of ARCHITECTURE.md
+  bless            renew committed goldens (the scorecard's schema)";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let outcome = match arguments.first().map(String::as_str) {
+        Some("evaluate") => steps::evaluate(&arguments[1..]),
+        Some("test") => steps::test(),
+        Some("ci") => steps::ci(),
+        Some("layers") => layers::check(),
+        Some("bless") => steps::bless(),
+        _ => Err(format!("usage: {USAGE}")),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            // The program's own exit code was passed on in the message's place by `steps`.
+            ExitCode::from(steps::last_exit_code())
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The commands, each a list of steps.
+
+use crate::{adapter, layers};
+use std::process::Command;
+use std::sync::atomic::{AtomicU8, Ordering};
+
+/// Exit code of the step that failed.
+static LAST: AtomicU8 = AtomicU8::new(1);
+
+/// What to exit with after a failure.
+pub(crate) fn last_exit_code() -> u8 {
+    LAST.load(Ordering::Relaxed)
+}
+
+/// A step's outcome: what failed, in words.
+pub(crate) type Outcome = Result<(), String>;
+
+/// Runs a program and says what it was when it fails.
+pub(crate) fn run(program: &str, arguments: &[&str]) -> Outcome {
+    run_in(Command::new(program).args(arguments))
+}
+
+fn run_in(command: &mut Command) -> Outcome {
+    let shown = std::iter::once(command.get_program()).chain(command.get_args());
+    let shown = shown.map(|a| a.to_string_lossy().into_owned()).collect::<Vec<_>>().join(" ");
+    eprintln!("> {shown}");
+    let status = command.status().map_err(|e| format!("{shown}: {e}"))?;
+    if status.success() {
+        return Ok(());
+    }
+    LAST.store(status.code().and_then(|c| u8::try_from(c).ok()).unwrap_or(1), Ordering::Relaxed);
+    Err(format!("failed ({status}): {shown}"))
+}
+
+/// Cargo, as it called us.
+pub(crate) fn cargo() -> String {
+    std::env::var("CARGO").unwrap_or_else(|_| "cargo".into())
+}
+
+/// Builds and runs the main job.
+pub(crate) fn evaluate(arguments: &[String]) -> Outcome {
+    run(&cargo(), &["build", "--release", "--package", "umbrage"])?;
+    let program = adapter::program("release")?;
+    adapter::ensure(&program)?;
+    let mut command = Command::new(&program);
+    run_in(adapter::quiet(command.arg("evaluate").args(arguments)))
+}
+
+/// All tests, documentation examples included.
+pub(crate) fn test() -> Outcome {
+    run(&cargo(), &["build", "--workspace", "--bins"])?;
+    adapter::ensure(&adapter::program("debug")?)?;
+    let mut command = Command::new(cargo());
+    run_in(adapter::quiet(command.args(["test", "--workspace", "--no-fail-fast"])))
+}
+
+/// Everything that a change must pass.
+pub(crate) fn ci() -> Outcome {
+    run(&cargo(), &["fmt", "--all", "--check"])?;
+    layers::check()?;
+    single_versions()?;
+    run(&cargo(), &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    let mut doc = Command::new(cargo());
+    run_in(doc.args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"))?;
+    test()
+}
+
+/// Types of two copies of these do not match each other.
+const ONCE: [&str; 4] = ["glam", "wgpu", "naga", "exr"];
+
+fn single_versions() -> Outcome {
+    let output = Command::new(cargo())
+        .args(["tree", "--workspace", "--duplicates", "--depth", "0"])
+        .output()
+        .map_err(|e| format!("cargo tree: {e}"))?;
+    let tree = String::from_utf8_lossy(&output.stdout);
+    match ONCE.iter().find(|name| tree.lines().any(|line| line.starts_with(&format!("{name} v")))) {
+        Some(name) => {
+            Err(format!("two versions of {name} in the tree: `cargo tree -d` shows who wants which"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Renews goldens; look at the difference before committing it.
+pub(crate) fn bless() -> Outcome {
+    let mut command = Command::new(cargo());
+    run_in(command.args(["test", "--package", "umbrage-report"]).env("UMBRAGE_BLESS", "1"))
+}
