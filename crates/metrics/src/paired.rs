@@ -3,8 +3,9 @@
 //! Same tiles, frames and (where patterns are shared) seeds: what both do wrong cancels, and the
 //! interval of the difference is far narrower than that of either. METRICS section 2.
 
-use crate::bootstrap::{Estimate, Stratum};
+use crate::bootstrap::Stratum;
 use crate::cells::check_alike;
+use crate::interval::Estimate;
 use crate::quantity::{SUMS, sums};
 use crate::{Bootstrap, Measurement, MetricsError, Quantity, TileTable};
 

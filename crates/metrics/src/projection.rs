@@ -101,6 +101,19 @@ impl Projection {
         }
         out
     }
+
+    /// The smooth fields with these coefficients: the inverse of [`Projection::project`], a row of
+    /// `columns` numbers per point.
+    pub(crate) fn fields(&self, coefficients: &[f64], columns: usize) -> Vec<f64> {
+        let mut out = vec![0.0; self.points * columns];
+        let functions = self.basis.chunks_exact(self.points.max(1));
+        for (row, coefficients) in functions.zip(coefficients.chunks_exact(columns.max(1))) {
+            for (weight, out) in row.iter().zip(out.chunks_exact_mut(columns)) {
+                out.iter_mut().zip(coefficients).for_each(|(o, c)| *o += weight * c);
+            }
+        }
+        out
+    }
 }
 
 /// Coordinates moved and scaled to -1..1, so that the functions are of one size.

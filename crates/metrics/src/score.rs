@@ -71,6 +71,8 @@ pub enum Missing {
     NothingSwims,
     /// Edges of one direction only: no spread over directions.
     OneEdgeAngle,
+    /// Penumbrae too small for a profile, or no rise across them.
+    NoProfile,
 }
 
 impl fmt::Display for Missing {
@@ -83,6 +85,7 @@ impl fmt::Display for Missing {
             Self::NoLit => "not measured: no fully lit surface in this view",
             Self::NoNoise => "not measured: this variant has no noise",
             Self::NothingSwims => "not measured: no swimming is resolved above 0",
+            Self::NoProfile => "not measured: no rise across any penumbra large enough for a profile",
             Self::OneEdgeAngle => "not measured: edges of one direction only",
         })
     }

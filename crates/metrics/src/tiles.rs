@@ -82,13 +82,18 @@ pub fn window_tiles(panel: &Panel, truth: &PanelTruth, tiling: &Tiling) -> Resul
 
 /// That panel, truth and tiling are about the same points and frames.
 pub(crate) fn check(panel: &Panel, truth: &PanelTruth, tiling: &Tiling) -> Result<(), MetricsError> {
-    panel.check()?;
-    expect_length("points of the tiling", panel.points, tiling.points())?;
+    check_points(panel, tiling)?;
     truth.check(panel.points)?;
     if truth.frames != 1 {
         expect_length("frames of the truth", panel.frames, truth.frames)?;
     }
     Ok(())
+}
+
+/// That panel and tiling are about the same points.
+pub(crate) fn check_points(panel: &Panel, tiling: &Tiling) -> Result<(), MetricsError> {
+    panel.check()?;
+    expect_length("points of the tiling", panel.points, tiling.points())
 }
 
 fn tile_row(panel: &Panel, truth: &PanelTruth, tile: &Tile) -> Result<TileRow, MetricsError> {
