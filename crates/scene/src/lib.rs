@@ -18,6 +18,7 @@ mod model;
 mod notes;
 mod obj;
 mod paths;
+mod rays;
 mod spec;
 mod suggest;
 

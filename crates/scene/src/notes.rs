@@ -1,13 +1,34 @@
 //! What is suspicious about a scene but not wrong: said, never refused.
 
+use crate::rays::Soup;
 use crate::{AreaLight, Scene};
 
 /// Sentences for people.
 pub(crate) fn about(scene: &Scene) -> Vec<String> {
-    let below = |light: &AreaLight| matches!(light, AreaLight::Sun { direction_to_light, .. } if direction_to_light.y <= 0.0);
+    let soup = Soup::from(&scene.geometry);
     let mut notes = Vec::new();
-    for (i, _) in scene.lights.iter().enumerate().filter(|(_, light)| below(light)) {
-        notes.push(format!("light {} stands below the horizon: it reaches no surface from above", i + 1));
+    for (i, light) in scene.lights.iter().enumerate() {
+        notes.extend(about_light(light, scene, &soup).map(|what| format!("light {} {what}", i + 1)));
+    }
+    for path in &scene.paths {
+        let eye = path.frames[0].camera.eye();
+        if soup.is_inside_solid(eye.as_dvec3()) {
+            notes.push(format!("path '{}' starts inside a solid", path.name));
+        }
     }
     notes
+}
+
+fn about_light(light: &AreaLight, scene: &Scene, soup: &Soup) -> Option<&'static str> {
+    let lowest = scene.geometry.bounds().0.y;
+    match light.centre() {
+        None if light.direction_from(glam::Vec3::ZERO).y <= 0.0 => {
+            Some("stands below the horizon: it reaches surfaces only from below")
+        }
+        Some(centre) if centre.y < lowest => {
+            Some("lies below every surface: it reaches them only from below")
+        }
+        Some(centre) if soup.is_inside_solid(centre.as_dvec3()) => Some("lies inside a solid"),
+        _ => None,
+    }
 }

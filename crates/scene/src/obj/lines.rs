@@ -1,0 +1,108 @@
+//! The lines of an OBJ file as tobj is to see them: counted, joined where one continues, and
+//! without what is not used here. tobj reads through this, so that an error has a line number.
+
+use std::cell::Cell;
+use std::io::{self, BufRead, Read};
+
+/// What was met so far; shared with whoever started the reading.
+#[derive(Debug, Default)]
+pub(super) struct Counts {
+    /// Lines read.
+    pub(super) lines: Cell<usize>,
+    /// Faces of more than four corners.
+    pub(super) polygons: Cell<usize>,
+}
+
+/// Serves one rewritten line at a time.
+pub(super) struct Lines<'a> {
+    rest: &'a [u8],
+    counts: &'a Counts,
+    /// Rewritten, not yet handed over; only for readers that do not ask for lines.
+    pending: Vec<u8>,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(bytes: &'a [u8], counts: &'a Counts) -> Self {
+        Self { rest: bytes, counts, pending: Vec::new() }
+    }
+
+    /// The next line with all its continuations; `None` at the end.
+    fn next_line(&mut self) -> Option<String> {
+        let mut line = String::new();
+        loop {
+            if self.rest.is_empty() {
+                return (!line.is_empty()).then_some(line);
+            }
+            let end = self.rest.iter().position(|&byte| byte == b'\n').unwrap_or(self.rest.len());
+            let (now, later) = self.rest.split_at(end);
+            self.rest = later.get(1..).unwrap_or_default();
+            self.counts.lines.set(self.counts.lines.get() + 1);
+            let now = String::from_utf8_lossy(now);
+            match now.trim().strip_suffix('\\') {
+                Some(part) => line.extend([part, " "]),
+                None => {
+                    line.push_str(now.trim());
+                    // A byte more than nothing: an empty line is not the end.
+                    line.push('\n');
+                    return Some(line);
+                }
+            }
+        }
+    }
+
+    /// A line without normals, texture coordinates, colours, comments, points and curves.
+    fn rewritten(&self, line: &str) -> String {
+        let Some((keyword, rest)) = line.split_once(char::is_whitespace) else { return String::new() };
+        let rest = rest.trim();
+        match keyword {
+            "v" => format!("v {}", coordinates(rest)),
+            "f" => {
+                let corners: Vec<&str> =
+                    rest.split_whitespace().map(|c| c.split_once('/').map_or(c, |(v, _)| v)).collect();
+                self.counts.polygons.set(self.counts.polygons.get() + usize::from(corners.len() > 4));
+                format!("f {}", corners.join(" "))
+            }
+            "o" | "g" => format!("{keyword} {rest}"),
+            "usemtl" | "mtllib" if !rest.is_empty() => format!("{keyword} {rest}"),
+            _ => String::new(),
+        }
+    }
+}
+
+/// x, y, z, and w if it is the only further number (else it is a colour).
+fn coordinates(rest: &str) -> String {
+    let words: Vec<&str> = rest.split_whitespace().collect();
+    let kept = if words.len() == 4 { 4 } else { words.len().min(3) };
+    words[..kept].join(" ")
+}
+
+impl BufRead for Lines<'_> {
+    fn read_line(&mut self, to: &mut String) -> io::Result<usize> {
+        let Some(line) = self.next_line() else { return Ok(0) };
+        let rewritten = self.rewritten(&line);
+        to.push_str(&rewritten);
+        to.push('\n');
+        Ok(rewritten.len() + 1)
+    }
+
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        if self.pending.is_empty() {
+            let mut line = String::new();
+            self.read_line(&mut line)?;
+            self.pending = line.into_bytes();
+        }
+        Ok(&self.pending)
+    }
+
+    fn consume(&mut self, amount: usize) {
+        self.pending.drain(..amount.min(self.pending.len()));
+    }
+}
+
+impl Read for Lines<'_> {
+    fn read(&mut self, to: &mut [u8]) -> io::Result<usize> {
+        let read = self.fill_buf()?.read(to)?;
+        self.consume(read);
+        Ok(read)
+    }
+}
