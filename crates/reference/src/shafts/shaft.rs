@@ -15,8 +15,6 @@ const ROUNDING: f32 = 16.0 / (1 << 24) as f32;
 
 pub(crate) struct Shaft {
     apex: Vec3A,
-    /// What rounding took from the apex: a blocker may be nearer than an ulp.
-    apex_rest: Vec3A,
     /// Unit normals of the four side planes, pointing inwards, as columns x, y, z; then their
     /// absolute values.
     sides: [Vec4; 3],
@@ -44,7 +42,6 @@ impl Shaft {
         let (low, high) = bounds(receiver, aim, [u, v], extent);
         Self {
             apex,
-            apex_rest: (receiver.position - apex.as_dvec3()).as_vec3a(),
             sides,
             sides_abs: sides.map(Vec4::abs),
             up: receiver.normal.as_vec3a(),
@@ -66,7 +63,7 @@ impl Shaft {
             + self.sides_abs[1] * half.y
             + self.sides_abs[2] * half.z;
         let highest = Vec3A::select(self.up.cmpgt(Vec3A::ZERO), bounds.max, bounds.min);
-        let rises = self.up.dot((highest - self.apex) - self.apex_rest);
+        let rises = self.up.dot(highest - self.apex);
         inwards.cmpge(Vec4::splat(-self.slack)).all() && (rises > 0.0 || self.up == Vec3A::ZERO)
     }
 
