@@ -46,7 +46,15 @@ pub(crate) struct Tally {
 
 impl std::fmt::Debug for Case {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} {:?} {:?} {:?} {:?}", self.variant.name(), self.light, self.seeding, self.pattern, self.bias)
+        write!(
+            f,
+            "{} {:?} {:?} {:?} {:?}",
+            self.variant.name(),
+            self.light,
+            self.seeding,
+            self.pattern,
+            self.bias
+        )
     }
 }
 

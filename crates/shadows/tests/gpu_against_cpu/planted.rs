@@ -1,0 +1,162 @@
+//! Errors planted in the pipeline's WGSL, one at a time: the twins must notice each. This is what
+//! makes their bounds and open decisions worth something.
+
+use crate::case::{Case, Ran};
+use crate::stages;
+use crate::support::edited::{Edit, with_edit};
+use crate::support::{still_life, variant_id};
+use Calibration::{AsPrinted, LightMatched};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use umbrage_scene::AreaLight;
+use umbrage_shadows::{Bias, Calibration, ConstantBias, ReceiverPlane};
+
+/// A variant, a fragment, what stands there and what is put in its place.
+type Plant = (&'static str, Calibration, &'static str, &'static str, &'static str);
+
+fn case_of(plant: &Plant, light: AreaLight) -> Case {
+    let &(name, calibration, fragment, from, to) = plant;
+    Case::new(with_edit(variant_id(name, calibration), Edit { fragment, from, to }), light)
+}
+
+/// Many pixels, not one by luck.
+fn notices(plant: &Plant, case: &Case) {
+    let wrong = case.run().compare_frame().wrong.len();
+    assert!(wrong >= 5, "{plant:?}: only {wrong} pixels differ");
+}
+
+const TAPS: &[Plant] = &[
+    // Half a texel.
+    ("hard", LightMatched, "tap", "floor(uv * size)", "floor(uv * size + 0.5)"),
+    ("pcf-grid-11", LightMatched, "tap", "floor(uv * size)", "floor(uv * size + vec2(0.0, 0.5))"),
+    ("pcf-vogel-16", LightMatched, "tap", "uv * size - 0.5", "uv * size"),
+    ("pcf-vogel-16", AsPrinted, "tap", "uv * size - 0.5", "uv * size"),
+    // A texel of the gather, and components in a wrong order: each pair once.
+    ("pcf-vogel-16", AsPrinted, "tap", "(base + 1.0) / size", "(base + 2.0) / size"),
+    ("pcf-vogel-16", AsPrinted, "tap", "mix(lit.w, lit.z", "mix(lit.z, lit.w"),
+    ("pcf-vogel-16", AsPrinted, "tap", "mix(lit.x, lit.y", "mix(lit.y, lit.x"),
+    (
+        "pcf-vogel-16",
+        AsPrinted,
+        "tap",
+        "mix(lit.w, lit.z, weight.x), mix(lit.x, lit.y",
+        "mix(lit.x, lit.y, weight.x), mix(lit.w, lit.z",
+    ),
+    ("pcf-vogel-16", AsPrinted, "tap", "weight.x), weight.y)", "weight.y), weight.x)"),
+    // References of other texels than the depths.
+    ("pcf-vogel-16", LightMatched, "tap", "first + vec2(step, 0.0)", "first + vec2(0.0, step)"),
+    ("pcf-vogel-16", LightMatched, "tap", "(base + 0.5) / size - s.uv", "base / size - s.uv"),
+    ("hard", LightMatched, "tap", "(texel + 0.5) / size - s.uv", "texel / size - s.uv"),
+    ("hard", LightMatched, "tap", "pair.y <= pair.x", "pair.y - 0.1 <= pair.x"),
+    // A map whose outside blocks.
+    ("pcf-vogel-16", LightMatched, "tap", "return 1.0;", "return 0.0;"),
+];
+
+const KERNELS: &[Plant] = &[
+    ("pcf-vogel-16", LightMatched, "kernel_vogel", "* 2.4", "* 2.5"),
+    ("pcf-vogel-16", LightMatched, "kernel_vogel", "f32(i) + 0.5", "f32(i)"),
+    (
+        "pcf-vogel-16",
+        LightMatched,
+        "kernel_vogel",
+        "vec2(cos(theta), sin(theta))",
+        "vec2(sin(theta), cos(theta))",
+    ),
+    ("pcf-vogel-16-ign", LightMatched, "pcf_vogel", "TAU * pattern", "pattern"),
+    ("pcf-vogel-16-ign", LightMatched, "pattern_ign", "52.9829189", "50.0"),
+    ("pcf-vogel-16-ign", LightMatched, "pattern_ign", "floor(place) + 0.5", "floor(place)"),
+    ("pcf-vogel-16-ign", LightMatched, "seed_fresh", "/ 16u", "/ 8u"),
+    ("pcf-vogel-16-ign", LightMatched, "seed_fresh", "globals.pattern_seed ^", "0u ^"),
+    ("pcf-grid-11", LightMatched, "pcf_grid", "/ half_side", "/ f32(GRID_SIDE)"),
+    ("pcf-grid-11", AsPrinted, "pcf_grid", "- half_side", "- 0.5 * f32(GRID_SIDE)"),
+];
+
+const LAWS: &[Plant] = &[
+    ("chss", LightMatched, "blocker_search", "sum / count", "sum / f32(SEARCH_TAPS)"),
+    ("chss", AsPrinted, "blocker_search", "pair.x < pair.y", "pair.x < s.depth"),
+    ("chss", AsPrinted, "law_squared", "80.0", "70.0"),
+    ("chss", AsPrinted, "law_squared", "80.0 * ratio * ratio", "80.0 * ratio"),
+    (
+        "chss",
+        LightMatched,
+        "law_light",
+        "return true_radius_uv(receiver, blocker);",
+        "return 2.0 * true_radius_uv(receiver, blocker);",
+    ),
+    ("pcf-vogel-16", LightMatched, "law_light", "globals.reference_gap", "2.0 * globals.reference_gap"),
+    ("chss-min", LightMatched, "chss_min", "s.uv * size", "s.uv * size + 0.5"),
+    ("chss-min", LightMatched, "fetch_bilinear", "place - 0.5", "place"),
+    ("chss-mask", LightMatched, "chss_mask", "r.place / f32(MASK_STEP)", "(r.place + 0.5) / f32(MASK_STEP)"),
+];
+
+const BIASES: &[Plant] = &[
+    ("hard", AsPrinted, "bias_constant", "- CONSTANT_BIAS_WORLD", ""),
+    ("hard", LightMatched, "bias_receiver_plane", "- CONSTANT_BIAS_WORLD", ""),
+    ("pcf-vogel-16", LightMatched, "bias_receiver_plane", "plane_depth(s, offset_uv)", "s.depth"),
+    ("chss-mask", LightMatched, "surface", "vec2<f32>(pixel) + 0.5", "vec2<f32>(pixel)"),
+];
+
+#[test]
+fn in_taps() {
+    TAPS.iter().for_each(|plant| notices(plant, &case_of(plant, still_life::sun())));
+}
+
+#[test]
+fn in_kernels_and_patterns() {
+    KERNELS.iter().for_each(|plant| notices(plant, &case_of(plant, still_life::sun())));
+}
+
+#[test]
+fn in_laws() {
+    LAWS.iter().for_each(|plant| notices(plant, &case_of(plant, still_life::sun())));
+}
+
+#[test]
+fn in_biases() {
+    BIASES.iter().for_each(|plant| notices(plant, &case_of(plant, still_life::sun())));
+}
+
+#[test]
+fn in_the_normal_offset_and_the_plane() {
+    let offset = Bias {
+        constant: ConstantBias::World(0.0),
+        normal_offset_texels: 1.5,
+        receiver_plane: ReceiverPlane::Off,
+    };
+    let plane = Bias { receiver_plane: ReceiverPlane::On { max_slope: 5.0 }, ..offset };
+    let (sun, sphere) = (still_life::sun(), still_life::sphere());
+    let plants: [(Bias, AreaLight, [&'static str; 3]); 6] = [
+        (offset, sun, ["light_sun", "* length(n.xy)", ""]),
+        (offset, sun, ["light_sun", "position + offset", "position - offset"]),
+        (offset, sphere, ["light_local", "* texel_world * sine", "* texel_world"]),
+        (plane, sun, ["light_sun", "vec2(n.x, -n.y)", "vec2(n.x, n.y)"]),
+        (plane, sphere, ["light_local", "vec2(n.x, -n.y)", "vec2(n.x, n.y)"]),
+        (plane, sphere, ["light_local", "/ receiver;", ";"]),
+    ];
+    for (bias, light, [fragment, from, to]) in plants {
+        let plant = ("pcf-vogel-16", LightMatched, fragment, from, to);
+        notices(&plant, &Case { bias, ..case_of(&plant, light) });
+    }
+}
+
+#[test]
+fn in_stages() {
+    type Check = fn(&Ran);
+    let plants: [(Plant, Check); 8] = [
+        (("chss-mask", LightMatched, "penumbra_mask", "MASK_STEP / 2u", "0u"), stages::check_mask),
+        (
+            ("chss-mask", LightMatched, "penumbra_mask", "SEARCH_SCALE * largest", "largest"),
+            stages::check_mask,
+        ),
+        (("chss-mask", AsPrinted, "penumbra_mask", "round(", "floor("), stages::check_mask),
+        (("chss-mask", LightMatched, "seed_fresh", "pcg(PATTERN_SALT)", "pcg(0u)"), stages::check_mask),
+        (("chss-mask", LightMatched, "blur_axis", "k <= 3", "k <= 2"), stages::check_mask_blur),
+        (("chss-min", LightMatched, "min_shrink", "k / SHRINK", "k % SHRINK"), stages::check_min_map),
+        (("chss-min", LightMatched, "min_axis", "k <= RADIUS", "k < RADIUS"), stages::check_min_map),
+        (("chss-min", LightMatched, "blur_axis", "+ k * step", "+ (k + 1) * step"), stages::check_min_blur),
+    ];
+    for (plant, check) in plants {
+        let ran = case_of(&plant, still_life::sun()).run();
+        let noticed = catch_unwind(AssertUnwindSafe(|| check(&ran))).is_err();
+        assert!(noticed, "{plant:?} was not noticed");
+    }
+}

@@ -46,7 +46,8 @@ impl Approx {
     pub(crate) fn sqrt(self) -> Self {
         let root = self.value.max(0.0).sqrt();
         // The root's slope is unbounded at 0, its change is not.
-        let propagated = if root > 0.0 { (self.error / root).min(self.error.sqrt()) } else { self.error.sqrt() };
+        let propagated =
+            if root > 0.0 { (self.error / root).min(self.error.sqrt()) } else { self.error.sqrt() };
         Self::operation(root, propagated, 9.0)
     }
 

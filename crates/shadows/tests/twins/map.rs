@@ -120,9 +120,12 @@ impl Map<'_> {
         let base = corner.map(|c| c.floor() as i64);
         let [wx, wy] = [0, 1].map(|k| corner[k] - base[k] as f64);
         let mut tap = Lit { low: 0.0, high: 0.0, open: 0 };
-        for (dx, dy, weight) in
-            [(0, 0, (1.0 - wx) * (1.0 - wy)), (1, 0, wx * (1.0 - wy)), (0, 1, (1.0 - wx) * wy), (1, 1, wx * wy)]
-        {
+        for (dx, dy, weight) in [
+            (0, 0, (1.0 - wx) * (1.0 - wy)),
+            (1, 0, wx * (1.0 - wy)),
+            (0, 1, (1.0 - wx) * wy),
+            (1, 1, wx * wy),
+        ] {
             let compared = self.compare(point, [base[0] + dx, base[1] + dy]).1;
             tap.low += if compared == Compared::Lit { weight } else { 0.0 };
             tap.high += if compared == Compared::Dark { 0.0 } else { weight };
@@ -179,8 +182,10 @@ impl Map<'_> {
             }
         }
         // A sum of positive terms loses half an ulp a term.
-        let sum = |sum: f64, count: u32| Approx { value: sum, error: f64::from(count) * super::approx::U * sum };
-        let mean = |(total, count): (f64, u32)| (count > 0).then(|| sum(total, count) / Approx::exact(count.into()));
+        let sum =
+            |sum: f64, count: u32| Approx { value: sum, error: f64::from(count) * super::approx::U * sum };
+        let mean =
+            |(total, count): (f64, u32)| (count > 0).then(|| sum(total, count) / Approx::exact(count.into()));
         Some(sums.into_iter().map(mean).collect())
     }
 
@@ -195,7 +200,13 @@ impl Map<'_> {
                 Compared::Dark => &[Some(depth)],
                 Compared::Open => &[None, Some(depth)],
             };
-            outcomes.iter().filter(|o| !found.contains(*o)).copied().collect::<Vec<_>>().into_iter().for_each(|o| found.push(o));
+            outcomes
+                .iter()
+                .filter(|o| !found.contains(*o))
+                .copied()
+                .collect::<Vec<_>>()
+                .into_iter()
+                .for_each(|o| found.push(o));
         }
         Some(found)
     }
