@@ -94,7 +94,7 @@ pub(crate) fn free_score(score: Score) -> String {
 /// A change in percent, as one would say it: "9 %", "0.6 %".
 pub(crate) fn spoken_percent(share: f64) -> String {
     let percent = 100.0 * share;
-    format!("{} %", fixed(percent, if percent.abs() < 1.95 { 1 } else { 0 }))
+    format!("{}\u{a0}%", fixed(percent, if percent.abs() < 1.95 { 1 } else { 0 }))
 }
 
 /// A whole number in groups of three: "104 311".
@@ -107,7 +107,7 @@ pub(crate) fn count(value: u64) -> String {
 
 /// A share of one as a percentage: "97.2 %".
 pub(crate) fn percent(share: f64) -> String {
-    format!("{} %", number(100.0 * share))
+    format!("{}\u{a0}%", number(100.0 * share))
 }
 
 /// Decimals that show three significant digits.
@@ -167,6 +167,6 @@ mod tests {
         assert_eq!(free_score(score(8.2e-7, 9.2e-7)), "(0.82 ± 0.92)×10⁻⁶");
         assert_eq!(free_number(0.000_012_3), "12.3×10⁻⁶");
         assert_eq!([7, 1234, 1_104_311].map(count), ["7", "1\u{202f}234", "1\u{202f}104\u{202f}311"]);
-        assert_eq!([0.091, 0.0061, 0.0194].map(spoken_percent), ["9 %", "0.6 %", "1.9 %"]);
+        assert_eq!([0.091, 0.0061, 0.0194].map(spoken_percent), ["9\u{a0}%", "0.6\u{a0}%", "1.9\u{a0}%"]);
     }
 }

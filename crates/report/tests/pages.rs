@@ -153,7 +153,7 @@ fn empty_states_speak() {
     let folder = pages_of(&card);
     let html = read(folder.path(), "index.html");
     let expected = [
-        "one frame only",
+        "not measured: one frame only",
         "No anchors agreed in this view: check the camera.",
         "No plot: not a cost: software adapter.",
         "No pictures were stored for this window.",

@@ -56,9 +56,9 @@ impl Calibration {
 /// A technique at one setting.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct VariantCard {
-    /// Its name: `chss-mask`.
+    /// Its name: `chss-mask`. Both calibrations of a name share a colour.
     pub name: String,
-    /// The technique that it is a setting of. Variants of one technique share a colour.
+    /// The technique that it is a setting of.
     pub technique: String,
     /// Where its constants come from.
     pub calibration: Calibration,

@@ -17,7 +17,7 @@ pub(super) fn section(card: &Scorecard) -> Markup {
                     dd {
                         p { (m.definition) }
                         @if !m.formula.is_empty() { p.formula { (m.formula) } }
-                        @if !m.blind_spot.is_empty() { p.muted { "Blind to: " (m.blind_spot) } }
+                        @if !m.blind_spot.is_empty() { p.muted { "Blind spot: " (m.blind_spot) } }
                         @if !m.source.is_empty() { p.muted { "Source: " (m.source) } }
                     }
                 }

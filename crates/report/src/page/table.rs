@@ -39,6 +39,8 @@ pub(super) fn section(card: &Scorecard) -> Markup {
 
 /// What every row of a column shares.
 struct Shared {
+    /// Whether anybody has this score.
+    measured: bool,
     column: &'static Column,
     power: Power,
     axis: Axis,
@@ -61,7 +63,7 @@ pub(super) fn scores(scope: Comparison) -> Markup {
                     tr {
                         th scope="col" { "variant" }
                         @for s in &shared { (header(s)) }
-                        @if costs { th.sortable scope="col" { span.name { "GPU" } small { "ms a frame" } } }
+                        @if costs { th.sortable scope="col" { span.name { "GPU" } small { "ms a frame, bar to p95" } } }
                     }
                 }
                 // Light-matched is the comparison, as printed the curiosity: it comes second.
@@ -93,20 +95,22 @@ fn kind(calibration: Calibration) -> &'static str {
 fn share(scope: Comparison, column: &'static Column) -> Shared {
     let all: Vec<Score> = (0..scope.card.variants.len()).filter_map(|v| scope.score(v, column.id)).collect();
     let axis = Axis::of(&all, column.target);
-    Shared { column, power: Power::of(all.iter().map(|s| s.value)), axis }
+    Shared { measured: !all.is_empty(), column, power: Power::of(all.iter().map(|s| s.value)), axis }
 }
 
 fn header(shared: &Shared) -> Markup {
-    let Shared { column, power, axis } = shared;
+    let Shared { column, power, axis, measured } = shared;
     let unit = power.label();
     html! {
         th.sortable scope="col" {
             a.name href={ "#metric-" (column.id) } { (column.head) }
             small { (column.sub) @if !unit.is_empty() { ", " span.unit { (unit) } } }
-            small.ends {
-                span { (Axis::tick_label(*power, axis.low)) }
-                @if axis.is_log() { span { "log" } }
-                span { (Axis::tick_label(*power, axis.high)) }
+            @if *measured {
+                small.ends {
+                    span { (Axis::tick_label(*power, axis.low)) }
+                    @if axis.is_log() { span { "log" } }
+                    span { (Axis::tick_label(*power, axis.high)) }
+                }
             }
         }
     }
@@ -159,7 +163,7 @@ fn cell(scope: Comparison, v: usize, shared: &Shared) -> Markup {
                 }
             }
         }
-        Some(Measured::NotMeasured { not_measured }) => html! { td.none { (not_measured) } },
+        Some(Measured::NotMeasured { not_measured }) => html! { td.none { "not measured: " (not_measured) } },
         None => html! { td.none { "not measured" } },
     }
 }
@@ -188,9 +192,8 @@ fn cost(card: &Scorecard, v: usize) -> Markup {
     let once =
         cost.once_per_scene_ms.map(|ms| format!("; once a scene {} ms", number(ms))).unwrap_or_default();
     html! {
-        td data-value=(cost.frame_ms_median) title={ (passes.join(", ")) (once) } {
+        td data-value=(cost.frame_ms_median) title={ "p95 " (number(cost.frame_ms_p95)) " ms; " (passes.join(", ")) (once) } {
             span.value { (number(cost.frame_ms_median)) }
-            span.half { " p95 " (number(cost.frame_ms_p95)) }
             (strip(ends(cost), &axis, Target::Zero))
         }
     }

@@ -12,7 +12,7 @@ const WIDTH: f64 = 960.0;
 const HEIGHT: f64 = 420.0;
 const LEFT: f64 = 62.0;
 const RIGHT: f64 = 24.0;
-const TOP: f64 = 18.0;
+const TOP: f64 = 28.0;
 const BOTTOM: f64 = 48.0;
 
 struct Point {

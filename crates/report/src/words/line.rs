@@ -107,9 +107,9 @@ mod tests {
 
     #[test]
     fn width_and_leak_obey_their_intervals() {
-        assert_eq!(line(&[("width_ratio", 0.91, 0.02)]), "penumbrae 9 % too narrow");
+        assert_eq!(line(&[("width_ratio", 0.91, 0.02)]), "penumbrae 9\u{a0}% too narrow");
         assert_eq!(line(&[("width_ratio", 1.02, 0.03)]), "penumbra width right within its interval");
         assert_eq!(line(&[("light_leak", 0.012, 0.011)]), "not measured", "may be as low as 0.001");
-        assert_eq!(line(&[("light_leak", 0.012, 0.002)]), "leaks 1.2 % light into the umbra");
+        assert_eq!(line(&[("light_leak", 0.012, 0.002)]), "leaks 1.2\u{a0}% light into the umbra");
     }
 }

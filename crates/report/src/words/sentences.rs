@@ -154,7 +154,7 @@ fn cost(all: Comparison) -> Sentence {
     let start = Sentence::default();
     if priced.is_empty() {
         let notes = all.card.overall.iter().find_map(|o| o.cost_note.as_deref());
-        let reason = notes.unwrap_or("needs a GPU");
+        let reason = notes.map_or("needs a GPU", |n| n.trim_start_matches("not a cost: "));
         return start.section("cost", "Cost").text(format!(" was not measured: {reason}."));
     }
     let mut sentence = start.text("By ").section("cost", "cost").text(": ");

@@ -92,7 +92,7 @@ fn what_was_not_measured_says_why() {
     }
     let said = say(&card);
     assert!(said.contains("SWIMMING was not measured: one frame only."), "{said}");
-    assert!(said.contains("Cost was not measured: not a cost: software adapter."), "{said}");
+    assert!(said.contains("Cost was not measured: software adapter."), "{said}");
     for window in &mut card.windows {
         window.anchors = 0;
     }
