@@ -24,13 +24,15 @@ pub struct AgreementLimits {
     /// the linear depth. Admits: f32 depth rounding and reconstruction (about 1e-6 of the depth).
     /// Catches: another surface, a wrong matrix.
     pub plane_per_depth: f32,
-    /// Largest angle between the normals.
+    /// Largest angle between the normals. 20 degrees: neighbouring facets of a round column (24
+    /// sides: 15 degrees) are one surface, two walls that meet in an edge are not. With 3 degrees a
+    /// colonnade loses a third of its points, with 20 a sixth.
     pub normal_radians: f32,
 }
 
 impl Default for AgreementLimits {
     fn default() -> Self {
-        Self { plane_per_depth: 1e-3, normal_radians: 3f32.to_radians() }
+        Self { plane_per_depth: 1e-3, normal_radians: 20f32.to_radians() }
     }
 }
 
