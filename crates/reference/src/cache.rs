@@ -8,7 +8,7 @@
 
 mod entry;
 
-use crate::{GroundTruth, Points, ReferenceError, Tracer, TruthSettings, samples};
+use crate::{GroundTruth, Points, ReferenceError, Tracer, TruthSettings};
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub struct Cache {
     folder: PathBuf,
 }
 
-/// The content that a truth follows from: geometry, points, light, settings and tool version.
+/// The content that a truth follows from: scene, points, light, settings and tool version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TruthKey([u8; 32]);
 
@@ -44,10 +44,8 @@ impl Tracer {
         let mut hasher = blake3::Hasher::new();
         hasher.update(concat!("umbrage truth ", env!("CARGO_PKG_VERSION")).as_bytes());
         hasher.update(&entry::VERSION.to_le_bytes());
-        hasher.update(&self.geometry_hash);
-        for light in samples::words(light) {
-            hasher.update(&light.to_le_bytes());
-        }
+        hasher.update(&self.scene_hash);
+        hasher.update(&light.content_hash());
         let TruthSettings { samples, replicates, basis_samples, seed, method } = *settings;
         for number in [samples, replicates, basis_samples, method as u32] {
             hasher.update(&number.to_le_bytes());

@@ -31,7 +31,7 @@ impl Tracer {
         points.check();
         let settings = &TruthSettings { basis_samples: 0, ..*settings };
         let layout = &settings.layout();
-        let task = Task { tracer: self, light, settings, layout };
+        let task = Task::new(self, light, (settings, layout));
         let each: Vec<[f32; 3]> = (0..points.len())
             .into_par_iter()
             .with_min_len(64)
@@ -47,7 +47,7 @@ impl Task<'_> {
     fn irradiance(&self, points: &Points, index: usize, scratch: &mut Scratch) -> [f32; 3] {
         let receiver = Receiver::new(&self.tracer.surfaces, points, index);
         let Some(aim) = Aim::new(self.light, &receiver) else { return [0.0; 3] };
-        let seed = seed(self.settings.seed, points.position[index], self.light);
+        let seed = seed(self.seed, points.position[index]);
         let sight = self.sight(&receiver, &aim, seed, scratch);
         if !matches!(sight, Sight::Sampled) {
             self.layout.fill(&mut scratch.samples, &aim, seed);

@@ -1,14 +1,14 @@
 //! The beauty picture: direct light and diffuse interreflection. It plays no part in mask scores.
 
+use crate::Tracer;
 use crate::aim::Aim;
 use crate::irradiance::Emitter;
 use crate::owen::{LONGEST, mix};
 use crate::primary::CameraRays;
 use crate::rays;
 use crate::receiver::Receiver;
-use crate::samples::LightSamples;
+use crate::samples::{LightSamples, light_seed};
 use crate::surfaces::Line;
-use crate::{Tracer, samples};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use sobol_burley::sample_4d;
@@ -32,7 +32,7 @@ impl Tracer {
     /// estimation: linear, per colour; black where nothing is hit. The light itself is not seen.
     pub fn radiance(&self, view: &View, light: &AreaLight, settings: &RadianceSettings) -> Image<Vec3> {
         let camera = CameraRays::new(view);
-        let paths = Paths { tracer: self, light, settings };
+        let paths = Paths { tracer: self, light, settings, seed: light_seed(settings.seed, light) };
         let pixels: Vec<Vec3> = (0..view.height * view.width)
             .into_par_iter()
             .map_init(LightSamples::default, |scratch, index| {
@@ -55,14 +55,14 @@ struct Paths<'a> {
     tracer: &'a Tracer,
     light: &'a AreaLight,
     settings: &'a RadianceSettings,
+    seed: u64,
 }
 
 impl Paths<'_> {
     fn pixel(&self, line: &Line, index: u32, scratch: &mut LightSamples) -> Vec3 {
         let Some(first) = self.vertex(line, |_, _| false) else { return Vec3::ZERO };
         let count = self.settings.samples.clamp(1, LONGEST);
-        let light = samples::words(self.light).fold(0, |h, w| mix(h ^ u64::from(w)));
-        let seed = mix(self.settings.seed ^ light) ^ u64::from(index);
+        let seed = mix(self.seed ^ u64::from(index));
         let sum: DVec3 = (0..count).map(|path| self.path(first, [seed, u64::from(path)], scratch)).sum();
         (sum / f64::from(count)).as_vec3()
     }

@@ -143,26 +143,14 @@ fn sin_cos(t: f32) -> [f32; 2] {
     [sin, cos]
 }
 
-/// A receiver's seed: of its place and its light, not of its index, so that its truth does not
-/// depend on the company it is asked for in.
-pub(crate) fn seed(global: u64, position: Vec3, light: &AreaLight) -> u64 {
-    let place = (position + Vec3::ZERO).to_array().map(f32::to_bits);
-    fold(global, place.into_iter().chain(words(light)))
+/// The seed of everything that is drawn for one light.
+pub(crate) fn light_seed(global: u64, light: &AreaLight) -> u64 {
+    let words = light.content_hash();
+    fold(global, words.as_chunks::<4>().0.iter().map(|&bytes| u32::from_le_bytes(bytes)))
 }
 
-/// A light's kind and numbers.
-pub(crate) fn words(light: &AreaLight) -> impl Iterator<Item = u32> {
-    let numbers = match *light {
-        AreaLight::Sun { direction_to_light, angular_diameter_radians: angle } => {
-            [Vec3::ZERO, direction_to_light, Vec3::splat(angle), Vec3::ZERO]
-        }
-        AreaLight::Disk { centre, normal, radius_world } => {
-            [Vec3::splat(1.0), centre, normal, Vec3::splat(radius_world)]
-        }
-        AreaLight::Rect { centre, half_u, half_v } => [Vec3::splat(2.0), centre, half_u, half_v],
-        AreaLight::Sphere { centre, radius_world } => {
-            [Vec3::splat(3.0), centre, Vec3::splat(radius_world), Vec3::ZERO]
-        }
-    };
-    numbers.into_iter().flat_map(|v| (v + Vec3::ZERO).to_array()).map(f32::to_bits)
+/// A receiver's seed: of its place, not of its index, so that its truth does not depend on the
+/// company it is asked for in.
+pub(crate) fn seed(light_seed: u64, position: Vec3) -> u64 {
+    fold(light_seed, (position + Vec3::ZERO).to_array().map(f32::to_bits))
 }

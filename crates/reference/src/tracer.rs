@@ -2,7 +2,7 @@
 
 use crate::{ReferenceError, surfaces::Surfaces};
 use glam::Vec3;
-use umbrage_scene::{Geometry, Scene};
+use umbrage_scene::Scene;
 
 /// The surfaces of a scene in a tree, with what the path tracer needs of their materials. Holds
 /// copies: the scene may be dropped.
@@ -12,8 +12,8 @@ pub struct Tracer {
     pub(crate) material: Vec<u32>,
     /// Per material.
     pub(crate) albedo: Vec<Vec3>,
-    /// Of what the truth follows from: vertices and triangles, in order.
-    pub(crate) geometry_hash: [u8; 32],
+    /// `Scene::content_hash`.
+    pub(crate) scene_hash: [u8; 32],
 }
 
 impl Tracer {
@@ -28,15 +28,7 @@ impl Tracer {
             surfaces,
             material: scene.geometry.material.clone(),
             albedo: scene.materials.iter().map(|m| m.albedo).collect(),
-            geometry_hash: geometry_hash(&scene.geometry),
+            scene_hash: scene.content_hash(),
         })
     }
-}
-
-fn geometry_hash(geometry: &Geometry) -> [u8; 32] {
-    let mut hasher = blake3::Hasher::new();
-    hasher.update(&(geometry.positions.len() as u64).to_le_bytes());
-    hasher.update(bytemuck::cast_slice(&geometry.positions));
-    hasher.update(bytemuck::cast_slice(&geometry.triangles));
-    *hasher.finalize().as_bytes()
 }

@@ -3,7 +3,7 @@
 use crate::aim::{Aim, Elevation};
 use crate::owen::LONGEST;
 use crate::receiver::Receiver;
-use crate::samples::{LANES, Layout, LightSamples, seed};
+use crate::samples::{LANES, Layout, LightSamples, light_seed, seed};
 use crate::{Points, Tracer, rays, shafts};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -101,7 +101,7 @@ impl Tracer {
     pub fn truth(&self, points: &Points, light: &AreaLight, settings: &TruthSettings) -> GroundTruth {
         points.check();
         let layout = settings.layout();
-        let task = Task { tracer: self, light, settings, layout: &layout };
+        let task = Task::new(self, light, (settings, &layout));
         let each: Vec<PointTruth> = (0..points.len())
             .into_par_iter()
             .with_min_len(64)
@@ -133,15 +133,24 @@ pub(crate) struct Task<'a> {
     pub(crate) light: &'a AreaLight,
     pub(crate) settings: &'a TruthSettings,
     pub(crate) layout: &'a Layout,
+    pub(crate) seed: u64,
 }
 
-impl Task<'_> {
+impl<'a> Task<'a> {
+    pub(crate) fn new(
+        tracer: &'a Tracer,
+        light: &'a AreaLight,
+        (settings, layout): (&'a TruthSettings, &'a Layout),
+    ) -> Self {
+        Self { tracer, light, settings, layout, seed: light_seed(settings.seed, light) }
+    }
+
     fn point(&self, points: &Points, index: usize, scratch: &mut Scratch) -> PointTruth {
         let receiver = Receiver::new(&self.tracer.surfaces, points, index);
         let Some(aim) = Aim::new(self.light, &receiver) else { return PointTruth::exact(1.0, false) };
         let elevation = aim.elevation(receiver.normal);
         let facing = elevation == Elevation::Above;
-        let seed = seed(self.settings.seed, points.position[index], self.light);
+        let seed = seed(self.seed, points.position[index]);
         match self.sight(&receiver, &aim, seed, scratch) {
             Sight::Lit => PointTruth::exact(1.0, facing),
             Sight::Hidden => PointTruth::exact(0.0, facing),
