@@ -71,7 +71,7 @@ fn lines(card: &Scorecard, window: usize, moving: &[&ResultCard]) -> Markup {
                 " (root scale)"
             }
             // Bands of what cannot be told from 0 would only lie on top of each other.
-            @for r in moving.iter().filter(|r| r.per_frame_swimming.iter().any(|s| s.low > 0.0)) {
+            @for r in moving.iter().filter(|r| is_resolved(&r.per_frame_swimming)) {
                 path class={ "band " (Look::of(card, r.variant).class()) } d=(band(&r.per_frame_swimming, at_x, at_y)) {}
             }
             @for r in moving {
@@ -83,6 +83,11 @@ fn lines(card: &Scorecard, window: usize, moving: &[&ResultCard]) -> Markup {
             }
         }
     }
+}
+
+/// Most of its frames can be told from 0.
+fn is_resolved(series: &[Score]) -> bool {
+    2 * series.iter().filter(|s| s.low > 0.0).count() > series.len()
 }
 
 fn line(series: &[Score], at_x: impl Fn(usize) -> f64, at_y: impl Fn(f64) -> f64) -> String {
