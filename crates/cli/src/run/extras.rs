@@ -1,30 +1,90 @@
 //! What explains a score (METRICS section 3), and what the eye may think.
 
+use super::panel::{Draw, Reading, shade_panel};
 use super::window::Window;
 use crate::error::CliError;
 use std::collections::BTreeMap;
 use umbrage_frame::Image;
-use umbrage_metrics::{Measurement, Panel, PointMaps};
-use umbrage_shadows::{Renderer, VariantId};
+use umbrage_metrics::{
+    Bootstrap, Measurement, Missing, Panel, PointMaps, Tail, Viewing, flip, grain, percentile, profiles,
+    ssim, window_grain, window_profiles, window_tails,
+};
+use umbrage_shadows::{Renderer, Seeding, VariantId};
 
 /// Measurements by metric id.
 type Extras = BTreeMap<String, Measurement>;
 
-/// From the anchored panel: tails, widths, levels, spectra.
-pub(super) fn of_panel(_window: &Window, _panel: &Panel, _maps: &PointMaps) -> Result<Extras, CliError> {
-    Ok(Extras::new())
+/// Frames and seeds of the runs that tell how noise is anchored: each of thousands of points gives
+/// a product per pair of frames.
+const PATTERN_FRAMES: usize = 4;
+const PATTERN_SEEDS: u32 = 2;
+
+/// From the anchored panel: tails, widths, levels, the colour of the noise.
+pub(super) fn of_panel(window: &Window, panel: &Panel, maps: &PointMaps) -> Result<Extras, CliError> {
+    let bootstrap = Bootstrap::default();
+    let tails = window_tails(maps, &window.tiling);
+    let table = window_profiles(panel, &window.truth, &window.anchors, &window.tiling)?;
+    let shape = profiles(&[&table], &bootstrap);
+    let mut extras = BTreeMap::from([
+        ("p95".to_string(), percentile(&[&tails], Tail::Error, 0.95, &bootstrap)),
+        ("p99".to_string(), percentile(&[&tails], Tail::Error, 0.99, &bootstrap)),
+        ("width_ratio".to_string(), shape.width_ratio),
+        ("width_anisotropy".to_string(), shape.width_anisotropy),
+        ("effective_levels".to_string(), shape.effective_levels),
+        ("plateau_fraction".to_string(), shape.plateau_fraction),
+    ]);
+    let noise = match panel.seeds {
+        1 => Measurement::NotMeasured(Missing::NoNoise),
+        _ => grain(&[&window_grain(panel, &window.tiling)?], &bootstrap).after_blur,
+    };
+    extras.insert("noise_after_blur".into(), noise);
+    Ok(extras)
 }
 
-/// From a frame as a game would show it: FLIP and SSIM.
-pub(super) fn of_picture(_window: &Window, _mask: &Image<f32>) -> Extras {
-    Extras::new()
+/// From a frame as a game would show it, where it counts: FLIP of the shaded scene, SSIM of the
+/// mask.
+pub(super) fn of_picture(window: &Window, mask: &Image<f32>) -> Extras {
+    let bootstrap = Bootstrap::default();
+    // What is not scored is shown with its true shadow: it must not speak here either.
+    let truth = window.spread(|point| window.truth.mean(point) as f32, 1.0);
+    let mut shown = truth.clone();
+    for point in (0..window.anchors.len()).filter(|&p| window.is_counted(p)) {
+        let pixel = window.anchors.pixel[point] as usize;
+        shown.pixels_mut()[pixel] = mask.pixels()[pixel];
+    }
+    let vectors = |mask| window.shaded(mask).map(|&rgb| glam::Vec3::from(rgb));
+    let flipped = flip(&vectors(&truth), &vectors(&shown), Viewing::default(), &bootstrap);
+    let similar = ssim(&truth, &shown, &bootstrap);
+    // Pictures smaller than their windows have no such score; the other scores do not depend on it.
+    let measured =
+        |score: Result<umbrage_metrics::PictureScore, _>| score.map(|s| Measurement::Measured(s.mean));
+    let pairs = [("flip", measured(flipped)), ("ssim", measured(similar))];
+    pairs.into_iter().filter_map(|(id, m)| Some((id.to_string(), m.ok()?))).collect()
 }
 
-/// From frozen and animated patterns: how the noise is anchored.
+/// From patterns as games ship them, frozen and animated: does the noise stick to the screen, to
+/// the world, or to neither.
 pub(super) fn of_patterns(
-    _window: &Window,
-    _variant: (VariantId, &mut Renderer<'_>),
-    _maps: &PointMaps,
+    window: &Window,
+    (variant, renderer): (VariantId, &mut Renderer<'_>),
 ) -> Result<Extras, CliError> {
-    Ok(Extras::new())
+    let runs = [
+        ("lag1_pixel_frozen", Seeding::Frozen, Reading::FixedPixels),
+        ("lag1_point_frozen", Seeding::Frozen, Reading::Anchored),
+        ("lag1_pixel_animated", Seeding::Animated, Reading::FixedPixels),
+        ("lag1_point_animated", Seeding::Animated, Reading::Anchored),
+    ];
+    let frames = window.frames.len().min(PATTERN_FRAMES);
+    let mut extras = Extras::new();
+    for (id, seeding, reading) in runs {
+        if frames < 2 {
+            extras.insert(id.into(), Measurement::NotMeasured(Missing::OneFrame));
+            continue;
+        }
+        let draw = Draw { seeding, seeds: PATTERN_SEEDS, frames };
+        let panel = shade_panel(window, (variant, renderer), reading, draw)?;
+        let table = window_grain(&panel, &window.tiling)?;
+        extras.insert(id.into(), grain(&[&table], &Bootstrap::default()).lag1);
+    }
+    Ok(extras)
 }

@@ -60,7 +60,7 @@ pub(super) fn measure(
     extras.extend(extras::of_picture(window, &mask));
     drop(panel);
     if variant.info().stochastic {
-        extras.extend(extras::of_patterns(window, (variant, renderer), &maps)?);
+        extras.extend(extras::of_patterns(window, (variant, renderer))?);
     }
     let pixels = match &window.pixel_truth {
         None => None,

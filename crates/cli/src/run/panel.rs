@@ -12,6 +12,8 @@ pub(super) enum Reading {
     Anchored,
     /// At the nearest pixel of a whole frame, as any picture from elsewhere must be read.
     Pixels,
+    /// At the anchor's pixel in the middle frame, in every frame: what stands still on the screen.
+    FixedPixels,
 }
 
 /// How patterns are drawn, and for how many frames from the start of the window.
@@ -32,7 +34,11 @@ pub(super) fn shade_panel(
     let points = window.anchors.len();
     let mut values = Vec::with_capacity(points * draw.frames * draw.seeds as usize);
     for (frame, (view, light)) in window.frames.iter().take(draw.frames).enumerate() {
-        let pixels = (reading == Reading::Pixels).then(|| window.anchors.pixels_in(view));
+        let pixels = match reading {
+            Reading::Anchored => None,
+            Reading::Pixels => Some(window.anchors.pixels_in(view)),
+            Reading::FixedPixels => Some(window.anchors.pixel.iter().map(|&p| Some(p)).collect()),
+        };
         for seed in 0..draw.seeds {
             let pattern = (draw.seeding, [window.first + frame as u32, seed]);
             match &pixels {

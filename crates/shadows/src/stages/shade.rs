@@ -70,7 +70,7 @@ pub(crate) fn pattern_fragments(seeding: Seeding) -> Vec<Fragment> {
 fn seed_fragments(seeding: Seeding) -> Vec<Fragment> {
     match seeding {
         Seeding::Fresh => vec![shader::SEED_FRESH, shader::HASH],
-        Seeding::Frozen => vec![shader::SEED_FROZEN],
-        Seeding::Animated => vec![shader::SEED_ANIMATED],
+        Seeding::Frozen => vec![shader::SEED_FROZEN, shader::HASH],
+        Seeding::Animated => vec![shader::SEED_ANIMATED, shader::HASH],
     }
 }

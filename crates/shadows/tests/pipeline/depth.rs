@@ -1,0 +1,154 @@
+//! Rasterised depth, of the light and of the camera, against a brute-force ray cast in f64.
+
+use crate::support::{self, still_life, variant_id};
+use glam::{DVec3, Vec3};
+use umbrage_frame::{Image, View};
+use umbrage_scene::{AreaLight, Camera, Scene};
+use umbrage_shadows::{Calibration, Renderer, Seeding};
+
+/// Rays through places of a picture (in texels), such that the ray's parameter is linear depth.
+struct Caster {
+    eye: DVec3,
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    /// Half the picture's width and height: metres (parallel rays), or metres at depth 1.
+    half: [f64; 2],
+    parallel: bool,
+    /// Depth that a depth buffer cannot tell apart, metres at a depth.
+    resolution: fn(f64, f64) -> f64,
+    near: f64,
+}
+
+/// Half an ulp of f32.
+const U: f64 = 1.0 / (1u64 << 24) as f64;
+
+impl Caster {
+    fn of_light(scene: &Scene, light: &AreaLight) -> Self {
+        let region = scene.shadow_region;
+        let (centre, half) = (region.centre.as_dvec3(), 0.5 * f64::from(region.width_world));
+        let parallel = light.centre().is_none();
+        let towards = match light.centre() {
+            Some(place) => (place.as_dvec3() - centre).normalize(),
+            None => light.direction_from(region.centre).as_dvec3(),
+        };
+        let right = DVec3::Y.cross(towards).normalize();
+        // A sun's eye stands one map width away, or a little above everything.
+        let height = |p: &Vec3| (p.as_dvec3() - centre).dot(towards);
+        let highest = scene.geometry.positions.iter().map(height).fold(0.0, f64::max);
+        let distance = (2.0 * half).max(highest * 1.01 + 0.01);
+        let eye = light.centre().map_or(centre + towards * distance, Vec3::as_dvec3);
+        let at_one = if parallel { half } else { half / (eye - centre).length() };
+        let near = if parallel { 0.0 } else { 1e-3 * (eye - centre).length() };
+        let (up, forward) = (towards.cross(right), -towards);
+        Self { eye, right, up, forward, half: [at_one; 2], parallel, resolution: resolution(parallel), near }
+    }
+
+    fn of_camera(camera: &Camera, view: &View) -> Self {
+        let axis = |k: usize| camera.world_from_camera.col(k).truncate().as_dvec3();
+        let tan = (0.5 * f64::from(camera.yfov_radians)).tan();
+        let half = [tan * f64::from(view.width) / f64::from(view.height), tan];
+        let near = f64::from(camera.near_world);
+        let (eye, right, up, forward) = (camera.eye().as_dvec3(), axis(0), axis(1), -axis(2));
+        Self { eye, right, up, forward, half, parallel: false, resolution: resolution(false), near }
+    }
+
+    /// Depth of the first surface, and of the last one that a depth buffer may take for it.
+    fn cast(&self, scene: &Scene, [u, v]: [f64; 2]) -> Option<(f64, f64)> {
+        let aside =
+            self.right * ((2.0 * u - 1.0) * self.half[0]) + self.up * ((1.0 - 2.0 * v) * self.half[1]);
+        let (origin, direction) =
+            if self.parallel { (self.eye + aside, self.forward) } else { (self.eye, self.forward + aside) };
+        let triangles = 0..scene.geometry.triangles.len();
+        let hit = |t| intersect(origin, direction, scene.geometry.corners(t).map(Vec3::as_dvec3));
+        let hits: Vec<f64> = triangles.filter_map(hit).filter(|&depth| depth > self.near).collect();
+        let first = hits.iter().copied().reduce(f64::min)?;
+        let same = first + (self.resolution)(first, self.near);
+        Some((first, hits.into_iter().filter(|&depth| depth <= same).fold(first, f64::max)))
+    }
+}
+
+/// Depth buffers hold z / far for parallel rays and about 1 - near / z for others, to an ulp or two.
+fn resolution(parallel: bool) -> fn(f64, f64) -> f64 {
+    if parallel { |_, _| 100.0 * 4.0 * U } else { |z, near| 4.0 * U * z * z / near }
+}
+
+/// Where a ray meets a triangle, from either side (Möller and Trumbore 1997).
+fn intersect(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+    let (ab, ac) = (b - a, c - a);
+    let p = direction.cross(ac);
+    let determinant = ab.dot(p);
+    if determinant == 0.0 {
+        return None;
+    }
+    let from = origin - a;
+    let (u, q) = (from.dot(p) / determinant, from.cross(ab));
+    let v = direction.dot(q) / determinant;
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| ac.dot(q) / determinant)
+}
+
+/// Rasterisers move vertices to a grid of 1/256 pixel, an edge by half of that, and attributes may
+/// move along: depth is that of a point less than this away.
+const SNAP_PX: f64 = 1.0 / 256.0;
+
+/// Coordinates of up to 50 m pass a matrix and an interpolation: some 20 roundings.
+const ROUNDING_WORLD: f64 = 20.0 * U * 50.0;
+
+/// Compares `samples` random pixels; returns how many lie on a silhouette.
+fn compare(depths: &Image<f32>, scene: &Scene, (caster, far): (&Caster, f64), samples: u32) -> usize {
+    let mut silhouettes = 0;
+    let mut state = 12345u64;
+    for _ in 0..samples {
+        // Knuth's generator: any fixed scatter will do.
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let (x, y) = ((state >> 33) as u32 % depths.width(), (state >> 13) as u32 % depths.height());
+        let place = |dx: f64, dy: f64| {
+            let centre = [f64::from(x) + 0.5 + dx * SNAP_PX, f64::from(y) + 0.5 + dy * SNAP_PX];
+            [centre[0] / f64::from(depths.width()), centre[1] / f64::from(depths.height())]
+        };
+        let corners = [(0.0, 0.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)];
+        let rays = corners.map(|(dx, dy)| caster.cast(scene, place(dx, dy)).unwrap_or((far, far)));
+        let low = rays.iter().map(|r| r.0).fold(f64::INFINITY, f64::min) - ROUNDING_WORLD;
+        let high = rays.iter().map(|r| r.1).fold(0.0, f64::max) + ROUNDING_WORLD;
+        let depth = f64::from(*depths.at(x, y));
+        assert!((low..=high).contains(&depth), "({x}, {y}): {depth} is not in {low}..{high}");
+        silhouettes += usize::from(high - low > 0.05);
+    }
+    silhouettes
+}
+
+/// At most this share lies within 1/256 pixel of a silhouette, or on a surface seen edge-on.
+const SILHOUETTE_SHARE: f64 = 0.02;
+
+fn check(scene: &Scene, light: AreaLight, samples: u32) {
+    let view = still_life::view_of(&still_life::camera());
+    let variant = variant_id("hard", Calibration::LightMatched);
+    let mut gpu = support::gpu();
+    let mut renderer = Renderer::new(&mut gpu, scene, 512).expect("fits");
+    let far = f64::from(renderer.light_map(&light).far);
+    let (_, dumps) = renderer.dump(variant, (&view, &light), (Seeding::Frozen, [0, 0])).expect("runs");
+    drop(gpu);
+    let target = |label| &dumps.iter().find(|d| d.label == label).expect("dumped").channels[0];
+    let caster = Caster::of_light(scene, &light);
+    let silhouettes = compare(target("shadow-map"), scene, (&caster, far), samples);
+    let share = f64::from(silhouettes as u32) / f64::from(samples);
+    assert!(share <= SILHOUETTE_SHARE, "{share} of the texels lie on silhouettes");
+    let caster = Caster::of_camera(&still_life::camera(), &view);
+    // Where nothing is seen, the target holds 0.
+    let silhouettes = compare(target("camera-depth"), scene, (&caster, 0.0), samples);
+    assert!(f64::from(silhouettes as u32) <= SILHOUETTE_SHARE * f64::from(samples));
+}
+
+#[test]
+fn shadow_map_and_camera_depth_equal_a_ray_cast() {
+    let scene = still_life::scene();
+    for light in [still_life::sun(), still_life::sphere(), still_life::disk()] {
+        check(&scene, light, 4000);
+    }
+}
+
+#[test]
+fn shadow_map_of_a_standard_scene_equals_a_ray_cast() {
+    let scene = Scene::builtin("colonnade").expect("built in");
+    check(&scene, scene.lights[0], 600);
+}
