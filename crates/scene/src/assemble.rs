@@ -25,7 +25,7 @@ pub(crate) fn assemble(
     path: &Path,
 ) -> Result<Scene, SceneError> {
     let mut notes = std::mem::take(&mut model.notes);
-    check_vertices(&model, path)?;
+    model.check(path)?;
     let bounds = model.bounds().ok_or(SceneError::NoTriangles { path: path.to_owned() })?;
     let origin = origin_for(bounds);
     let (geometry, dropped) = geometry_from(&model.objects, origin);
@@ -59,25 +59,6 @@ pub(crate) fn assemble(
     let more = notes::about(&scene);
     scene.notes.extend(more);
     Ok(scene)
-}
-
-fn check_vertices(model: &Model, path: &Path) -> Result<(), SceneError> {
-    for Object { name, positions, triangles, .. } in &model.objects {
-        for (triangle, corners) in triangles.iter().enumerate() {
-            for &vertex in corners {
-                let (path, object) = (path.to_owned(), name.clone());
-                let Some(&position) = positions.get(vertex as usize) else {
-                    let vertices = positions.len();
-                    return Err(SceneError::IndexOutOfRange { path, object, triangle, vertex, vertices });
-                };
-                if !position.as_vec3().is_finite() {
-                    let vertex = vertex as usize;
-                    return Err(SceneError::VertexNotFinite { path, object, vertex, position });
-                }
-            }
-        }
-    }
-    Ok(())
 }
 
 /// What to subtract: whole metres, so that lights and cameras keep round numbers.

@@ -25,11 +25,14 @@ struct Start {
 
 pub(crate) fn file_for(model: &Model, path: &Path) -> Result<SceneFile, SceneError> {
     let soup = Soup::from(model);
-    let bounds = soup.bounds().ok_or(SceneError::NoTriangles { path: path.to_owned() })?;
+    let bounds = model.bounds().ok_or(SceneError::NoTriangles { path: path.to_owned() })?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let mut paths = fitted_paths(best_start(&soup, bounds));
-    let camera = |name: &String| plain_path(name, Motion::Gltf { camera: name.clone() });
-    paths.extend(model.cameras.iter().map(|found| camera(&found.name)));
+    for camera in &model.cameras {
+        let taken = paths.iter().any(|path| path.name == camera.name);
+        let name = if taken { format!("camera {}", camera.name) } else { camera.name.clone() };
+        paths.push(plain_path(&name, Motion::Gltf { camera: camera.name.clone() }));
+    }
     Ok(SceneFile {
         title: format!("{stem}, with a sun and paths fitted to its size"),
         geometry: GeometrySpec::file(path),

@@ -12,6 +12,7 @@ mod fitted;
 mod generators;
 mod gltf_file;
 mod hash;
+mod hermite;
 mod light;
 mod load;
 mod model;

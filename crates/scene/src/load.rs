@@ -100,11 +100,13 @@ fn read_models(spec: &GeometrySpec, path: &Path) -> Result<Model, SceneError> {
 }
 
 fn read_model(path: &Path) -> Result<Model, SceneError> {
-    match extension(path).as_deref() {
-        Some("obj") => obj::read(path),
-        Some("gltf" | "glb") => gltf_file::read(path),
-        _ => Err(SceneError::NotAScene { path: path.to_owned() }),
-    }
+    let model = match extension(path).as_deref() {
+        Some("obj") => obj::read(path)?,
+        Some("gltf" | "glb") => gltf_file::read(path)?,
+        _ => return Err(SceneError::NotAScene { path: path.to_owned() }),
+    };
+    model.check(path)?;
+    Ok(model)
 }
 
 /// A name that nothing has is a mistake: the object would stay, unseen by the author.

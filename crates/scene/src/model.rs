@@ -1,9 +1,10 @@
 //! What loaders and generators hand over: named objects in the file's own coordinates, in f64, not
 //! yet checked. No light, no path and no region: those come from the scene file.
 
-use crate::Material;
 use crate::gltf_file::CameraTrack;
+use crate::{Material, SceneError};
 use glam::{DAffine3, DVec3};
+use std::path::Path;
 
 /// A model as it was read or generated.
 #[derive(Clone, Debug, Default)]
@@ -42,6 +43,14 @@ impl Model {
         }
     }
 
+    /// Whether every triangle has its vertices, and each of them a place that f32 can hold.
+    ///
+    /// # Errors
+    /// `IndexOutOfRange` or `VertexNotFinite` for the first that has not.
+    pub(crate) fn check(&self, path: &Path) -> Result<(), SceneError> {
+        self.objects.iter().try_for_each(|object| object.check(path))
+    }
+
     /// Takes over another file's contents.
     pub(crate) fn append(&mut self, mut other: Self) {
         let first = self.materials.len() as u32;
@@ -52,14 +61,34 @@ impl Model {
         self.notes.append(&mut other.notes);
     }
 
-    /// Smallest and largest coordinates of finite vertices; `None` without any.
+    /// Smallest and largest coordinates of vertices that a triangle uses; `None` without any. To be
+    /// asked of a checked model.
     pub(crate) fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        self.objects.iter().flat_map(|object| &object.positions).filter(|position| position.is_finite()).fold(
-            None,
-            |bounds, &p| match bounds {
-                None => Some((p, p)),
-                Some((lo, hi)) => Some((lo.min(p), hi.max(p))),
-            },
-        )
+        let used = self.objects.iter().flat_map(|object| {
+            object.triangles.iter().flatten().map(|&vertex| object.positions[vertex as usize])
+        });
+        used.fold(None, |bounds, p| match bounds {
+            None => Some((p, p)),
+            Some((lo, hi)) => Some((lo.min(p), hi.max(p))),
+        })
+    }
+}
+
+impl Object {
+    fn check(&self, path: &Path) -> Result<(), SceneError> {
+        let vertices = self.positions.len();
+        for (triangle, &vertex) in
+            self.triangles.iter().enumerate().flat_map(|(t, all)| all.iter().map(move |v| (t, v)))
+        {
+            let Some(&position) = self.positions.get(vertex as usize) else {
+                let (path, object) = (path.to_owned(), self.name.clone());
+                return Err(SceneError::IndexOutOfRange { path, object, triangle, vertex, vertices });
+            };
+            if !position.as_vec3().is_finite() {
+                let (path, object, vertex) = (path.to_owned(), self.name.clone(), vertex as usize);
+                return Err(SceneError::VertexNotFinite { path, object, vertex, position });
+            }
+        }
+        Ok(())
     }
 }

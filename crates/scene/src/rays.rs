@@ -28,13 +28,10 @@ const AROUND: [DVec3; 6] = [
 ];
 
 impl From<&Model> for Soup {
-    /// Triangles with indices out of range or vertices that are not finite are left out.
+    /// Of a checked model.
     fn from(model: &Model) -> Self {
         let corners = model.objects.iter().flat_map(|object| {
-            object.triangles.iter().filter_map(|&[a, b, c]| {
-                let at = |v: u32| object.positions.get(v as usize).copied().filter(|p| p.is_finite());
-                Some([at(a)?, at(b)?, at(c)?])
-            })
+            object.triangles.iter().map(|triangle| triangle.map(|v| object.positions[v as usize]))
         });
         Self(corners.collect())
     }
@@ -48,15 +45,6 @@ impl From<&Geometry> for Soup {
 }
 
 impl Soup {
-    /// Smallest and largest coordinates; `None` without triangles.
-    pub(crate) fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let all = self.0.iter().flatten();
-        all.fold(None, |bounds, &p| match bounds {
-            None => Some((p, p)),
-            Some((lo, hi)) => Some((lo.min(p), hi.max(p))),
-        })
-    }
-
     pub(crate) fn cast(&self, from: DVec3, direction: DVec3) -> Option<Hit> {
         let hits = self.0.iter().filter_map(|corners| intersect(*corners, from, direction));
         hits.min_by(|a, b| a.distance.total_cmp(&b.distance))

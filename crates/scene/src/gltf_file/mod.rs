@@ -1,13 +1,105 @@
-//! glTF 2.0.
+//! glTF 2.0 through the gltf crate: meshes under their nodes' transforms, base colour factors,
+//! perspective cameras and their animation.
+//!
+//! Deliberately absent: textures, skins, morph targets, the file's own lights (they have no size).
+//! What is left out and would be missed is said in a note.
 
+mod accessor;
 mod animation;
+mod mesh;
+mod nodes;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use animation::CameraTrack;
 
-use crate::SceneError;
 use crate::model::Model;
+use crate::{Material, SceneError};
+use accessor::Buffers;
+use glam::Vec3;
+use gltf::json::Root;
+use gltf::json::validation::Checked;
+use gltf::material::AlphaMode;
+use gltf::{Document, Gltf};
 use std::path::Path;
 
 pub(crate) fn read(path: &Path) -> Result<Model, SceneError> {
-    Err(SceneError::NotAScene { path: path.to_owned() })
+    let bytes = std::fs::read(path).map_err(|source| SceneError::Read { path: path.to_owned(), source })?;
+    parse(&bytes, path)
+}
+
+/// `path` is for messages, and its folder for buffers.
+pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Model, SceneError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    model_from(bytes, folder).map_err(|message| SceneError::Gltf { path: path.to_owned(), message })
+}
+
+fn model_from(bytes: &[u8], folder: &Path) -> Result<Model, String> {
+    check_header(bytes)?;
+    let Gltf { document, blob } =
+        Gltf::from_slice_without_validation(bytes).map_err(|error| error.to_string())?;
+    let root = document.into_json();
+    check_references(&root)?;
+    let document = Document::from_json(root).map_err(|error| error.to_string())?;
+    let buffers = Buffers::read(&document, blob, folder)?;
+    let mut model = Model { materials: materials(&document), notes: notes(&document), ..Model::default() };
+    let nodes = nodes::placed(&document)?;
+    for (at, placed) in nodes.iter().enumerate() {
+        mesh::add(&mut model, placed, &buffers)?;
+        nodes::add_camera(&mut model, &nodes, at, (&document, &buffers))?;
+    }
+    Ok(model)
+}
+
+/// The gltf crate subtracts the header's size from a length that it has not checked.
+fn check_header(bytes: &[u8]) -> Result<(), String> {
+    let length = bytes.get(8..12).and_then(|b| b.try_into().ok()).map_or(0, u32::from_le_bytes);
+    if bytes.starts_with(b"glTF") && length < 12 {
+        return Err("the binary header is truncated or damaged".to_owned());
+    }
+    Ok(())
+}
+
+/// References that the gltf crate's validation follows (a mesh's attributes) or forgets (what an
+/// animation moves) without a check of its own.
+fn check_references(root: &Root) -> Result<(), String> {
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut accessors = primitives.flat_map(|primitive| primitive.attributes.values());
+    if let Some(missing) = accessors.find(|index| index.value() >= root.accessors.len()) {
+        return Err(format!("a mesh uses accessor {missing}, which does not exist"));
+    }
+    for (i, animation) in root.animations.iter().enumerate() {
+        for channel in &animation.channels {
+            let known = channel.target.node.value() < root.nodes.len();
+            if !known || matches!(channel.target.path, Checked::Invalid) {
+                return Err(format!("animation {i} moves a node or property that does not exist"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// All of the file's, and the default one (white) last.
+fn materials(document: &Document) -> Vec<Material> {
+    let named = document.materials().map(|material| {
+        let [r, g, b, _] = material.pbr_metallic_roughness().base_color_factor();
+        let unnamed = || format!("material {}", material.index().unwrap_or_default());
+        let name = material.name().map_or_else(unnamed, str::to_owned);
+        Material { name, albedo: Vec3::new(r, g, b) }
+    });
+    let default = Material { name: "default".to_owned(), albedo: Vec3::ONE };
+    named.chain([default]).collect()
+}
+
+fn notes(document: &Document) -> Vec<String> {
+    let textured =
+        document.materials().filter(|m| m.pbr_metallic_roughness().base_color_texture().is_some()).count();
+    let cut_out = document.materials().filter(|m| m.alpha_mode() != AlphaMode::Opaque).count();
+    let moved = document.nodes().filter(|n| n.skin().is_some() || n.weights().is_some()).count();
+    let all = [
+        (textured, "materials have a colour texture, which is not read"),
+        (cut_out, "materials are cut out or transparent in the file, opaque here"),
+        (moved, "nodes have a skin or morph targets and stand as they were modelled"),
+    ];
+    all.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect()
 }

@@ -3,6 +3,7 @@
 use super::motions::look_at;
 use super::{Pose, Track};
 use crate::SceneError;
+use crate::hermite::hermite;
 use crate::spec::{Interpolation, Keyframe, KeyframeList, PathSpec, keyframes_from};
 use glam::DVec3;
 use std::path::Path;
@@ -87,13 +88,4 @@ fn segment(list: &KeyframeList, i: usize, secs: f64, of: fn(&Keyframe) -> [f64; 
         (value(after) - value(before)) / (keys[after].time_secs - keys[before].time_secs)
     };
     hermite([value(i), slope(i) * span, value(i + 1), slope(i + 1) * span], part)
-}
-
-/// The cubic with these values and slopes at 0 and 1, in Hermite's form.
-fn hermite([from, from_slope, to, to_slope]: [DVec3; 4], t: f64) -> DVec3 {
-    let (t2, t3) = (t * t, t * t * t);
-    from * (2.0 * t3 - 3.0 * t2 + 1.0)
-        + from_slope * (t3 - 2.0 * t2 + t)
-        + to * (3.0 * t2 - 2.0 * t3)
-        + to_slope * (t3 - t2)
 }
