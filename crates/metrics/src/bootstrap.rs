@@ -36,13 +36,15 @@ pub(crate) struct Stratum {
 }
 
 impl Stratum {
-    /// Adds up tiles (column, row, sums) to clusters, in row order.
-    pub(crate) fn new(tiles: impl Iterator<Item = (u32, u32, Vec<f64>)>, cluster_tiles: u32) -> Self {
+    /// Adds up tiles (column, row, `width` sums) to clusters, in row order.
+    pub(crate) fn new(
+        width: usize,
+        tiles: impl Iterator<Item = (u32, u32, Vec<f64>)>,
+        cluster_tiles: u32,
+    ) -> Self {
         let side = cluster_tiles.max(1);
         let mut clusters: BTreeMap<(u32, u32), Vec<f64>> = BTreeMap::new();
-        let mut width = 0;
         for (column, row, sums) in tiles {
-            width = sums.len();
             let cluster = clusters.entry((row / side, column / side)).or_insert_with(|| vec![0.0; width]);
             cluster.iter_mut().zip(&sums).for_each(|(c, s)| *c += s);
         }

@@ -44,13 +44,14 @@ pub fn cells(tables: &[&TileTable], bootstrap: &Bootstrap) -> Result<Cells, Metr
     check_alike(tables)?;
     let strata: Vec<_> = tables.iter().map(|t| stratum(t, bootstrap.cluster_tiles)).collect();
     let mut scores: Vec<(Quantity, Measurement)> = Vec::with_capacity(Quantity::ALL.len());
-    for weight in [Quantity::Mse, Quantity::LightLeak, Quantity::FalseShadow].map(Quantity::weight) {
-        let group: Vec<Quantity> = Quantity::ALL.into_iter().filter(|q| q.weight() == weight).collect();
-        let of_region: Vec<_> = strata.iter().map(|s| s.clone().where_any(&[weight])).collect();
-        let values = |sums: &[Vec<f64>]| group.iter().map(|q| q.value(sums)).collect();
-        let estimates = bootstrap.estimate(&of_region, values);
+    for first in [Quantity::Mse, Quantity::LightLeak, Quantity::FalseShadow, Quantity::OutsideShare] {
+        let seen = first.seen_by();
+        let group: Vec<Quantity> = Quantity::ALL.into_iter().filter(|q| q.seen_by() == seen).collect();
+        let clusters: Vec<_> = strata.iter().map(|s| s.clone().where_any(seen)).collect();
+        let estimates = bootstrap.estimate(&clusters, |sums| group.iter().map(|q| q.value(sums)).collect());
         scores.extend(group.iter().zip(estimates).map(|(&quantity, estimate)| {
-            let missing = quantity.missing(tables).map(Measurement::NotMeasured);
+            let undefined = (!estimate.score.value.is_finite()).then_some(Missing::NoError);
+            let missing = quantity.missing(tables).or(undefined).map(Measurement::NotMeasured);
             (quantity, missing.unwrap_or(Measurement::Measured(estimate.score)))
         }));
     }

@@ -79,7 +79,7 @@ pub(crate) fn scored(map: Image<f32>, bootstrap: &Bootstrap) -> PictureScore {
         (tile[0], tile[1]) = (tile[0] + 1.0, tile[1] + f64::from(value));
     }
     let tiles = sums.into_iter().enumerate().map(|(i, s)| (i as u32 % columns, i as u32 / columns, s));
-    let stratum = Stratum::new(tiles, bootstrap.cluster_tiles);
+    let stratum = Stratum::new(2, tiles, bootstrap.cluster_tiles);
     let mean = bootstrap.estimate(&[stratum], |sums| vec![sums[0][1] / sums[0][0]])[0].score;
     PictureScore { mean, map }
 }

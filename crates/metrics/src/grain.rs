@@ -100,9 +100,9 @@ fn add_point(sums: &mut [f64], panel: &Panel, point: usize) {
 /// Pools windows to the character of the noise.
 pub fn grain(tables: &[&GrainTable], bootstrap: &Bootstrap) -> Grain {
     let strata: Vec<Stratum> =
-        tables.iter().map(|t| Stratum::new(t.rows.iter().cloned(), bootstrap.cluster_tiles)).collect();
+        tables.iter().map(|t| Stratum::new(SUMS, t.rows.iter().cloned(), bootstrap.cluster_tiles)).collect();
     let ratios = |windows: &[Vec<f64>]| {
-        let sum = |slot: usize| windows.iter().map(|w| w.get(slot).copied().unwrap_or(0.0)).sum::<f64>();
+        let sum = |slot: usize| windows.iter().map(|w| w[slot]).sum::<f64>();
         vec![sum(SUCCESSIVE) / sum(VARIANCE), sum(BLURRED) / sum(STILL)]
     };
     let estimates = bootstrap.estimate(&strata, ratios);

@@ -7,7 +7,7 @@ use crate::bootstrap::Stratum;
 use crate::cells::check_alike;
 use crate::interval::Estimate;
 use crate::quantity::{SUMS, sums};
-use crate::{Bootstrap, Measurement, MetricsError, Quantity, TileTable};
+use crate::{Bootstrap, Measurement, MetricsError, Missing, Quantity, TileTable};
 
 /// `a` minus `b`.
 ///
@@ -20,6 +20,7 @@ pub fn paired(
     bootstrap: &Bootstrap,
 ) -> Result<Measurement, MetricsError> {
     Ok(match paired_estimate(a, b, what, bootstrap)? {
+        Ok(estimate) if !estimate.score.value.is_finite() => Measurement::NotMeasured(Missing::NoError),
         Ok(estimate) => Measurement::Measured(estimate.score),
         Err(missing) => Measurement::NotMeasured(missing),
     })
@@ -43,7 +44,7 @@ pub(crate) fn paired_estimate(
     b: &[&TileTable],
     what: Quantity,
     bootstrap: &Bootstrap,
-) -> Result<Result<Estimate, crate::Missing>, MetricsError> {
+) -> Result<Result<Estimate, Missing>, MetricsError> {
     check_alike(&[a, b].concat())?;
     if a.len() != b.len() {
         return Err(MetricsError::Unlike("different numbers of windows"));
@@ -51,9 +52,10 @@ pub(crate) fn paired_estimate(
     if let Some(missing) = what.missing(a).or(what.missing(b)) {
         return Ok(Err(missing));
     }
-    let weights = [what.weight(), SUMS + what.weight()];
+    // Both tables hold the same points, so the first's counts serve.
+    let weights = what.seen_by();
     let strata: Result<Vec<_>, _> =
-        a.iter().zip(b).map(|(a, b)| Ok(joined(a, b, bootstrap)?.where_any(&weights))).collect();
+        a.iter().zip(b).map(|(a, b)| Ok(joined(a, b, bootstrap)?.where_any(weights))).collect();
     let difference = |sums: &[Vec<f64>]| {
         let (first, second): (Vec<_>, Vec<_>) =
             sums.iter().map(|s| (s[..SUMS].to_vec(), s[SUMS..].to_vec())).unzip();
@@ -69,5 +71,5 @@ fn joined(a: &TileTable, b: &TileTable, bootstrap: &Bootstrap) -> Result<Stratum
         return Err(MetricsError::Unlike("different tiles or points"));
     }
     let rows = a.tiles.iter().zip(&b.tiles).map(|(a, b)| (a.column, a.row, [sums(a), sums(b)].concat()));
-    Ok(Stratum::new(rows, bootstrap.cluster_tiles))
+    Ok(Stratum::new(2 * SUMS, rows, bootstrap.cluster_tiles))
 }

@@ -86,7 +86,7 @@ pub fn profiles(tables: &[&ProfileTable], bootstrap: &Bootstrap) -> Profiles {
         .iter()
         .map(|table| {
             let near = table.rows.iter().filter(|(.., s)| s[TRUE_AREA] + s[AREA] + s[STAIR] > 0.0);
-            Stratum::new(near.cloned(), bootstrap.cluster_tiles)
+            Stratum::new(STAIR + STAIRS, near.cloned(), bootstrap.cluster_tiles)
         })
         .collect();
     let seen = seen_classes(tables);

@@ -82,7 +82,7 @@ pub(crate) fn sums(tile: &TileRow) -> Vec<f64> {
 
 /// The clusters of a window.
 pub(crate) fn stratum(table: &TileTable, cluster_tiles: u32) -> Stratum {
-    Stratum::new(table.tiles.iter().map(|t| (t.column, t.row, sums(t))), cluster_tiles)
+    Stratum::new(SUMS, table.tiles.iter().map(|t| (t.column, t.row, sums(t))), cluster_tiles)
 }
 
 impl Quantity {
@@ -160,11 +160,21 @@ impl Quantity {
     }
 
     /// The sum that counts this quantity's points.
-    pub(crate) fn weight(self) -> usize {
+    fn weight(self) -> usize {
         match self {
             Self::LightLeak => UMBRA,
             Self::FalseShadow => LIT,
             _ => POINTS,
+        }
+    }
+
+    /// The sums of which a cluster must have one to say anything about this quantity.
+    pub(crate) fn seen_by(self) -> &'static [usize] {
+        match self {
+            Self::LightLeak => &[UMBRA],
+            Self::FalseShadow => &[LIT],
+            Self::OutsideShare => &[POINTS, UMBRA, LIT],
+            _ => &[POINTS],
         }
     }
 

@@ -67,6 +67,8 @@ pub enum Missing {
     NoLit,
     /// The variant has no noise to describe.
     NoNoise,
+    /// There is no error at all, hence no share of it.
+    NoError,
     /// SWIMMING is not resolved above 0, so its rhythm means nothing.
     NothingSwims,
     /// Edges of one direction only: no spread over directions.
@@ -84,6 +86,7 @@ impl fmt::Display for Missing {
             Self::NoUmbra => "not measured: no umbra in this view",
             Self::NoLit => "not measured: no fully lit surface in this view",
             Self::NoNoise => "not measured: this variant has no noise",
+            Self::NoError => "not measured: there is no error",
             Self::NothingSwims => "not measured: no swimming is resolved above 0",
             Self::NoProfile => "not measured: no rise across any penumbra large enough for a profile",
             Self::OneEdgeAngle => "not measured: edges of one direction only",

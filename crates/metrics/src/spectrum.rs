@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 const REACH: i32 = 8;
 /// Lags per axis.
 const SIDE: usize = 2 * REACH as usize + 1;
+/// Place of lag (0, 0).
+const MIDDLE: usize = SIDE * SIDE / 2;
 /// Deviation in pixels of the blur that stands for the eye.
 const BLUR_PX: f64 = 2.0;
 
@@ -75,14 +77,20 @@ impl Autocovariance {
 
     fn of_tile(maps: &[Vec<f64>], tiling: &Tiling, grid: &Grid, tile: &Tile) -> Self {
         let mut sums = Self { products: vec![0.0; SIDE * SIDE], pairs: vec![0.0; SIDE * SIDE] };
+        // A pair is met from both ends: half of the lags, from the middle on, hold all.
         for &point in &tile.penumbra {
             let place = tiling.place(point);
-            for (slot, lag) in lags().enumerate() {
+            for (slot, lag) in lags().enumerate().skip(MIDDLE) {
                 if let Some(other) = grid.neighbour(place, lag) {
                     sums.pairs[slot] += maps.len() as f64;
                     sums.products[slot] += maps.iter().map(|m| m[point as usize] * m[other]).sum::<f64>();
                 }
             }
+        }
+        for slot in 0..MIDDLE {
+            let mirrored = 2 * MIDDLE - slot;
+            sums.pairs[slot] = sums.pairs[mirrored];
+            sums.products[slot] = sums.products[mirrored];
         }
         sums
     }
@@ -104,14 +112,14 @@ impl Autocovariance {
         let share =
             |slot: usize| if self.pairs[slot] > 0.0 { own.products[slot] / self.pairs[slot] } else { 0.0 };
         let blurred = (0..SIDE * SIDE).map(|slot| weights[slot] * share(slot)).sum();
-        (blurred, share(SIDE * SIDE / 2))
+        (blurred, share(MIDDLE))
     }
 
     /// Power at each radial frequency, mean over directions, over that of white noise.
     pub(crate) fn spectrum(&self) -> Vec<f64> {
         const DIRECTIONS: usize = 24;
         let covariance = |slot: usize| self.products[slot] / self.pairs[slot].max(1.0);
-        let white = covariance(SIDE * SIDE / 2);
+        let white = covariance(MIDDLE);
         let hann = |lag: i32| 0.5 + 0.5 * (TAU * 0.5 * f64::from(lag) / f64::from(REACH + 1)).cos();
         let power = |fx: f64, fy: f64| -> f64 {
             let term = |(slot, (dx, dy)): (usize, (i32, i32))| {

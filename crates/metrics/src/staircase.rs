@@ -9,8 +9,9 @@
 
 use crate::{MetricsError, Panel, PanelTruth, Tile, Tiling};
 
-/// At least so many points in a bin, and so many bins in a profile.
-const POINTS_PER_BIN: usize = 4;
+/// At least so many points in a bin (fewer tell more levels apart, but the noise of the sums of
+/// products grows with the power -2.5), and so many bins in a profile.
+const POINTS_PER_BIN: usize = 6;
 const FEWEST_BINS: usize = 12;
 const MOST_BINS: usize = 192;
 

@@ -23,6 +23,7 @@ pub fn swimming_per_frame(table: &TileTable, bootstrap: &Bootstrap) -> Result<Ve
         (tile.column, tile.row, sums.collect())
     });
     let means = |sums: &[Vec<f64>]| sums[0][1..].iter().map(|s| s / sums[0][0]).collect();
-    let estimates = bootstrap.estimate(&[Stratum::new(rows, bootstrap.cluster_tiles)], means);
+    let estimates =
+        bootstrap.estimate(&[Stratum::new(1 + table.frames as usize, rows, bootstrap.cluster_tiles)], means);
     Ok(estimates.into_iter().map(|e| e.score).collect())
 }
