@@ -5,7 +5,7 @@ use crate::error::CliError;
 use crate::scenes::find_scene;
 use crate::views::{frame_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
-use umbrage_reference::{Method, PrimaryHits, Tracer, TruthSettings};
+use umbrage_reference::{Method, PrimaryHits, RadianceSettings, Tracer, TruthSettings};
 
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     let (scene, _) = find_scene(&args.scene)?;
@@ -22,13 +22,25 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
         },
         ..TruthSettings::default()
     };
-    let truth = tracer.truth(&hits.points(), &frame.light, &settings);
+    let points = hits.points();
+    let truth = tracer.truth(&points, &frame.light, &settings);
+    let irradiance = tracer.irradiance(&points, &frame.light, &settings);
     let mut layers = surfaces(&hits);
     let mut add = |name: &str, values: &[f32]| layers.push((name.to_string(), spread(&hits, values)));
     add("reference.V", &truth.mean);
     add("half1.V", &truth.halves[0]);
     add("half2.V", &truth.halves[1]);
     add("variance.V", &truth.variance);
+    add("irradiance.E", &irradiance.shadowed);
+    add("irradiance.E0", &irradiance.unshadowed);
+    add("irradiance.R", &irradiance.ratio);
+    if let Some(bounces) = args.bounces {
+        let settings = RadianceSettings { samples: args.beauty_samples, bounces, seed: 0 };
+        let beauty = tracer.radiance(&view, &frame.light, &settings);
+        layers.extend(
+            ["R", "G", "B"].into_iter().enumerate().map(|(k, name)| (name.to_string(), beauty.map(|v| v[k]))),
+        );
+    }
     write_exr(&args.out, &layers)?;
     println!("{}", args.out.display());
     Ok(())
