@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 pub struct Bootstrap {
     /// Of the random draws.
     pub seed: u64,
-    /// Number of resamples; 1000 resolve the 2.5 % tails to about a tenth of the interval.
+    /// Number of resamples; 1000 place each end to about a twentieth of the half-width.
     pub replicates: u32,
     /// Side, in tiles, of the squares that are drawn together.
     pub cluster_tiles: u32,

@@ -1,5 +1,5 @@
 //! Intervals must cover a known 0 at least 43 times in 48 draws: with a coverage of 95 % fewer happen
-//! once in 50 runs, with the 14 % of resampled pixels never. Draws are seeded, so the test is steady.
+//! once in 30 runs, with the 14 % of resampled pixels never. Draws are seeded, so the test is steady.
 
 mod support;
 
@@ -37,17 +37,20 @@ fn noisy_panel(draw: u64, side: usize, speed: usize) -> Panel {
     Panel { points: truth.len(), frames: FRAMES, seeds: SEEDS, values }
 }
 
-/// How often the intervals of SWIMMING and of the smooth static cell cover 0.
-fn covered(side: usize, speed: usize) -> [usize; 2] {
+const ALL: [Quantity; 4] =
+    [Quantity::Swimming, Quantity::SmoothStatic, Quantity::StructuredMoving, Quantity::StructuredStatic];
+
+/// How often the interval of each quantity covers 0.
+fn covered(side: usize, speed: usize, quantities: &[Quantity]) -> Vec<usize> {
     let truth = PICTURE.truth(slats(20.0, 48.0), 0.0, 1);
     let tiling = PICTURE.tiling(&truth);
     let bootstrap = Bootstrap { replicates: 400, ..Bootstrap::default() };
-    let mut hits = [0; 2];
+    let mut hits = vec![0; quantities.len()];
     for draw in 0..DRAWS {
         let table = window_tiles(&noisy_panel(draw, side, speed), &truth, &tiling).expect("a table");
         let cells = cells(&[&table], &bootstrap).expect("cells");
-        for (hits, quantity) in hits.iter_mut().zip([Quantity::Swimming, Quantity::SmoothStatic]) {
-            *hits += usize::from(cells.get(quantity).score().expect("measured").contains(0.0));
+        for (hits, quantity) in hits.iter_mut().zip(quantities) {
+            *hits += usize::from(cells.get(*quantity).score().expect("measured").contains(0.0));
         }
     }
     hits
@@ -55,18 +58,20 @@ fn covered(side: usize, speed: usize) -> [usize; 2] {
 
 #[test]
 fn white_noise() {
-    let hits = covered(1, 0);
+    let hits = covered(1, 0, &ALL);
     assert!(hits.iter().all(|&h| h >= NEEDED), "{hits:?}");
 }
 
 #[test]
 fn noise_in_blocks_of_a_quarter_resolution_mask() {
-    let hits = covered(64, 0);
+    // A block fills its tiles, so this noise is wholly smooth: the structured cells hold what f32
+    // rounding leaves (1e-16), which is an error and no 0.
+    let hits = covered(64, 0, &ALL[..2]);
     assert!(hits.iter().all(|&h| h >= NEEDED), "{hits:?}");
 }
 
 #[test]
 fn noise_in_blocks_under_a_moving_camera() {
-    let hits = covered(64, 5);
+    let hits = covered(64, 5, &ALL);
     assert!(hits.iter().all(|&h| h >= NEEDED), "{hits:?}");
 }
