@@ -103,7 +103,7 @@ impl Aim {
     pub(crate) fn reach(&self, a: f64, b: f64) -> f64 {
         match self.outline {
             Outline::Square => a.abs() + b.abs(),
-            Outline::Disk => a.hypot(b),
+            Outline::Disk => (a * a + b * b).sqrt(),
         }
     }
 

@@ -15,8 +15,8 @@ use crate::surfaces::Surfaces;
 use forms::{Shade, Silhouette};
 use shaft::Shaft;
 
-/// With more silhouettes than this in the way, rays are faster: a silhouette costs about a
-/// nanosecond per four samples, a ray about a hundred.
+/// With more silhouettes than this in the way, rays to the same samples are faster: each rejects all
+/// but a few triangles. On the colonnade and on Crytek Sponza 100 and 2000 both take longer.
 const MOST: usize = 400;
 
 /// What is between a receiver and the light.

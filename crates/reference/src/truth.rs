@@ -16,7 +16,7 @@ pub struct TruthSettings {
     /// to 65536 a replicate.
     pub samples: u32,
     /// Independent scrambles in all, split evenly over the two halves: even, at least 2 (raised if
-    /// it is not). The variance is estimated from their spread: 8 to 16.
+    /// it is not) and at most 64. The variance is estimated from their spread: 8 to 16 are good.
     pub replicates: u32,
     /// Samples of the third independent estimate, which scores build their projection from; at most
     /// 65536. With 0 there is none, and `basis` stays empty.
@@ -121,7 +121,7 @@ impl Tracer {
 
 impl TruthSettings {
     pub(crate) fn layout(&self) -> Layout {
-        let replicates = self.replicates.clamp(2, LONGEST).next_multiple_of(2);
+        let replicates = self.replicates.clamp(2, 64).next_multiple_of(2);
         let per_replicate = self.samples.div_ceil(replicates / 2).clamp(1, LONGEST);
         Layout::new(replicates as usize, per_replicate as usize, self.basis_samples.min(LONGEST) as usize)
     }

@@ -51,7 +51,9 @@ fn blocks_on_a_floor() {
     }
     let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
     let points = tracer.primary(&view(Vec3::new(0.0, 3.0, 8.0), Vec3::ZERO, [96, 54])).points();
-    for light in lights() {
+    let grazing = Vec3::new(1.0, 0.05, 0.2).normalize();
+    let low = AreaLight::Sun { direction_to_light: grazing, angular_diameter_radians: 0.08 };
+    for light in lights().into_iter().chain([low]) {
         assert_ties_only(&format!("{light:?}"), &both(&tracer, &points, &light));
     }
 }
@@ -70,5 +72,20 @@ fn triangle_soup() {
     let points = tracer.primary(&view(Vec3::new(0.0, 1.0, 12.0), Vec3::ZERO, [96, 54])).points();
     for light in lights() {
         assert_ties_only(&format!("{light:?}"), &both(&tracer, &points, &light));
+    }
+}
+
+#[test]
+fn standard_scenes() {
+    for name in umbrage_scene::builtin_names() {
+        let scene = umbrage_scene::Scene::builtin(name).expect("a standard scene");
+        let tracer = Tracer::new(&scene).expect("a scene");
+        let frames = &scene.paths[0].frames;
+        let middle = &frames[frames.len() / 2];
+        let points = tracer.primary(&view_of(&middle.camera, [64, 36])).points();
+        let differing = differences(&both(&tracer, &points, &middle.light));
+        let count = differing.iter().filter(|&&d| d > 0).count();
+        let worst = differing.iter().max().copied().unwrap_or(0);
+        assert!(count <= points.len() / 100 && worst <= 3, "{name}: {count} differ, by up to {worst}");
     }
 }

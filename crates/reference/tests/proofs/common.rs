@@ -1,6 +1,7 @@
 //! Small scenes for the tests of this crate.
 
 use glam::{DVec3, Vec3};
+use umbrage_frame::View;
 use umbrage_reference::{Method, Points, TruthSettings};
 use umbrage_scene::{AreaLight, Camera, Geometry, Material, Scene, ShadowRegion};
 
@@ -63,10 +64,13 @@ pub(crate) fn settings(samples: u32, method: Method) -> TruthSettings {
     TruthSettings { samples, replicates: 8, basis_samples: samples, seed: 1, method }
 }
 
-/// A view of a scene.
-pub(crate) fn view(eye: Vec3, target: Vec3, [width, height]: [u32; 2]) -> umbrage_frame::View {
-    let camera = Camera::look_at(eye, target, 60f32.to_radians(), 0.05, 500.0);
-    umbrage_frame::View {
+/// A camera of 60 degrees.
+pub(crate) fn view(eye: Vec3, target: Vec3, size: [u32; 2]) -> View {
+    view_of(&Camera::look_at(eye, target, 60f32.to_radians(), 0.05, 500.0), size)
+}
+
+pub(crate) fn view_of(camera: &Camera, [width, height]: [u32; 2]) -> View {
+    View {
         width,
         height,
         clip_from_world: camera.clip_from_camera(width as f32 / height as f32) * camera.camera_from_world(),

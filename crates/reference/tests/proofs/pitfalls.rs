@@ -137,6 +137,25 @@ fn no_surface_shadows_itself() {
     }
 }
 
+/// Neighbours share their edges to the bit: nothing leaks between them.
+#[test]
+fn meshes_are_tight() {
+    let at = |i: i32, j: i32| {
+        Vec3::new(i as f32 * 0.071, 1.3 + 0.03 * ((i * i + 3 * j) % 7) as f32, j as f32 * 0.067)
+    };
+    let roof = (-30..30).flat_map(|i| (-30..30).map(move |j| (i, j))).flat_map(|(i, j)| {
+        [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i, j + 1), at(i + 1, j + 1)]]
+    });
+    let triangles: Vec<[Vec3; 3]> = floor(10.0).into_iter().chain(roof).collect();
+    let points = on_floor((0..60).map(|i| i as f32 * 0.01 - 0.3), 0.05);
+    let lights = [overhead_sun(20.0), AreaLight::Sphere { centre: Vec3::Y * 4.0, radius_world: 1.0 }];
+    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    for (light, method) in lights.iter().flat_map(|l| METHODS.map(|m| (l, m))) {
+        let mean = tracer.truth(&points, light, &settings(256, method)).mean;
+        assert!(mean.iter().all(|&v| v == 0.0), "{light:?}, {method:?}: {mean:?}");
+    }
+}
+
 /// The lamp's own panel, modelled where the light is, does not shadow it; a blocker does.
 #[test]
 fn a_lamp_at_the_light() {

@@ -33,7 +33,10 @@ fn closest_hits_equal_brute_force() {
             let t = normal.dot(a) / normal.dot(through);
             (inside && t > 0.0).then_some(t)
         };
-        let nearest = triangles.iter().filter_map(distance).fold(f64::INFINITY, f64::min);
+        let all = triangles.iter().enumerate().filter_map(|(i, t)| Some((distance(t)?, i as u32)));
+        let (nearest, triangle) =
+            all.fold((f64::INFINITY, u32::MAX), |best, hit| if hit.0 < best.0 { hit } else { best });
+        assert_eq!(*hits.triangle.at(x, y), triangle, "the scene's index, not the tree's");
         let want = (nearest * through.dot(view.direction(Vec2::new(32.0, 18.0)).as_dvec3())) as f32;
         let depth = *hits.gbuffer.depth.at(x, y);
         // Both directions carry f32 roundings (view.direction): 1e-6 of the depth, times the slope

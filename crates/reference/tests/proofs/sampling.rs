@@ -93,9 +93,11 @@ fn halves_and_basis_are_independent() {
 }
 
 #[test]
-fn odd_settings_are_rounded_up() {
+fn odd_settings_are_made_even() {
     let (tracer, points, light) = edge_scene(4);
-    for (samples, replicates, want) in [(10, 8, 24), (0, 2, 2), (5, 1, 10), (7, 3, 16)] {
+    for (samples, replicates, want) in
+        [(10, 8, 24), (0, 2, 2), (5, 1, 10), (7, 3, 16), (u32::MAX, 2, 2 << 16), (1, 999, 64)]
+    {
         let settings = TruthSettings { samples, replicates, ..settings(16, Method::Shafts) };
         let truth = tracer.truth(&points, &light, &settings);
         assert_eq!(truth.samples, want, "{samples} samples in {replicates} replicates");
