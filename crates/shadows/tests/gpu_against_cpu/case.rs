@@ -96,9 +96,8 @@ impl Ran {
 
     /// The surface at a pixel, from the pipeline's own depth and normals.
     pub(crate) fn surface(&self, pixel: [u32; 2]) -> Option<Receiver> {
-        let camera = still_life::camera();
         let targets = (self.image("camera-depth"), self.channels("camera-normal"));
-        surface((&camera, &still_life::view_of(&camera)), targets, pixel)
+        surface(&still_life::view_of(&still_life::camera()), targets, pixel)
     }
 
     pub(crate) fn light(&self) -> Light {

@@ -7,12 +7,13 @@ use crate::support::{still_life, variant_id};
 use umbrage_scene::AreaLight;
 use umbrage_shadows::{Bias, Calibration, ConstantBias, ReceiverPlane, Seeding};
 
-/// Share of pixels whose result a rounding may decide. A position is known to a few 1e-5 m, a few
-/// thousandths of a texel; a variant takes up to 160 decisions, and those at the borders of blockers
-/// are near. Twice what is found here; a twin that leaves more open says too little.
-const OPEN_PIXELS: f64 = 0.16;
-/// Anchors come without the rounding of depth and pose.
-const OPEN_ANCHORS: f64 = 0.08;
+/// Share of pixels whose result a rounding may decide. A position is known to about 2e-5 m, a
+/// thousandth of a texel; a variant takes up to 160 decisions, and those at the borders of blockers
+/// are near. The most that is found here is 5.7 % (an acne-ridden plane); a twin that leaves much
+/// more open would say too little.
+const OPEN_PIXELS: f64 = 0.08;
+/// Anchors come without the rounding of depth and pose: at most 2.2 % here.
+const OPEN_ANCHORS: f64 = 0.04;
 
 fn check(case: &Case) {
     let ran = case.run();

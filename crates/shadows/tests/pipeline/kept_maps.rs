@@ -72,6 +72,15 @@ fn a_changed_scene_is_rendered_again_and_another_renderer_of_the_same_is_not() {
 }
 
 #[test]
+fn what_is_forgotten_is_rendered_again() {
+    let (scene, mut gpu) = (still_life::scene(), support::gpu());
+    let mut renderer = renderer(&mut gpu, &scene);
+    passes(&mut renderer, &sun_at(0.5));
+    renderer.forget();
+    assert_eq!(sorted(passes(&mut renderer, &sun_at(0.5))), all());
+}
+
+#[test]
 fn what_was_kept_is_what_would_be_rendered() {
     let (scene, mut gpu) = (still_life::scene(), support::gpu());
     let view = still_life::view_of(&still_life::camera());

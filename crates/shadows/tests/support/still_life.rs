@@ -48,14 +48,14 @@ pub(crate) fn of_geometry(geometry: Geometry) -> Scene {
 /// A sun of 3 degrees.
 pub(crate) fn sun() -> AreaLight {
     AreaLight::Sun {
-        direction_to_light: Vec3::new(0.55, 0.75, 0.35).normalize(),
+        direction_to_light: Vec3::new(0.5, 0.7, -0.45).normalize(),
         angular_diameter_radians: 0.052,
     }
 }
 
 /// A ball of light over the scene; one wall rises behind it.
 pub(crate) fn sphere() -> AreaLight {
-    AreaLight::Sphere { centre: Vec3::new(1.2, 2.9, 1.1), radius_world: 0.07 }
+    AreaLight::Sphere { centre: Vec3::new(1.0, 2.9, -1.2), radius_world: 0.07 }
 }
 
 /// A disc of light.

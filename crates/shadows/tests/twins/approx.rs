@@ -43,12 +43,23 @@ impl Approx {
         Self { value, error: propagated + half_ulps * U * (value.abs() + propagated) }
     }
 
+    /// A root in WGSL; on a CPU it is rounded once.
     pub(crate) fn sqrt(self) -> Self {
+        self.root(9.0)
+    }
+
+    fn root(self, half_ulps: f64) -> Self {
         let root = self.value.max(0.0).sqrt();
         // The root's slope is unbounded at 0, its change is not.
-        let propagated =
-            if root > 0.0 { (self.error / root).min(self.error.sqrt()) } else { self.error.sqrt() };
-        Self::operation(root, propagated, 9.0)
+        let steepest = if root > 0.0 { self.error / root } else { f64::INFINITY };
+        Self::operation(root, steepest.min(self.error.sqrt()), half_ulps)
+    }
+
+    fn over(self, other: Self, half_ulps: f64) -> Self {
+        let quotient = self.value / other.value;
+        let smallest = other.value.abs() - other.error;
+        let propagated = (self.error + quotient.abs() * other.error) / smallest;
+        Self::operation(quotient, if smallest > 0.0 { propagated } else { UNKNOWN }, half_ulps)
     }
 
     pub(crate) fn cos(self) -> Self {
@@ -65,11 +76,13 @@ impl Approx {
     }
 
     pub(crate) fn max(self, other: Self) -> Self {
-        Self { value: self.value.max(other.value), error: self.error.max(other.error) }
+        let (low, high) = (self.low().max(other.low()), self.high().max(other.high()));
+        let value = self.value.max(other.value);
+        Self { value, error: (value - low).max(high - value) }
     }
 
     pub(crate) fn min(self, other: Self) -> Self {
-        Self { value: self.value.min(other.value), error: self.error.max(other.error) }
+        -(-self).max(-other)
     }
 
     pub(crate) fn low(self) -> f64 {
@@ -130,10 +143,7 @@ impl Mul for Approx {
 impl Div for Approx {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        let quotient = self.value / other.value;
-        let smallest = other.value.abs() - other.error;
-        let propagated = (self.error + quotient.abs() * other.error) / smallest;
-        Self::operation(quotient, if smallest > 0.0 { propagated } else { UNKNOWN }, 5.0)
+        self.over(other, 5.0)
     }
 }
 
@@ -187,5 +197,11 @@ impl Approx3 {
     pub(crate) fn normalized(self) -> Self {
         let length = self.length();
         Self(self.0.map(|c| c / length))
+    }
+
+    /// On a CPU, by its reciprocal length: every operation is rounded once.
+    pub(crate) fn normalized_on_cpu(self) -> Self {
+        let reciprocal = Approx::exact(1.0).over(self.dot(self).root(1.0), 1.0);
+        self.times(reciprocal)
     }
 }

@@ -65,7 +65,7 @@ impl Light {
             let eye_distance = back.length();
             // The map just covers the region's width at its centre.
             let mut local = Self {
-                axes: axes(back.normalized()),
+                axes: axes(back.normalized_on_cpu()),
                 eye,
                 is_sun: false,
                 // Half over the tangent of half the map's angle, the way back from an arc tangent.
@@ -234,6 +234,6 @@ impl Law<'_> {
 fn axes(towards: Approx3) -> [Approx3; 3] {
     let steep = towards.0[1].value.abs() > 0.99;
     let up = Approx3::from_vec(if steep { Vec3::NEG_Z } else { Vec3::Y });
-    let right = up.cross(towards).normalized();
+    let right = up.cross(towards).normalized_on_cpu();
     [right, towards.cross(right), towards]
 }

@@ -34,6 +34,8 @@ enum Compared {
 /// Blocker depths that a search may find on average; `None` among them stands for no blocker.
 pub(crate) type Blockers = Vec<Option<Approx>>;
 
+/// Depths that are not told apart, metres: a mean over 32 taps knows them to 1/32 of it.
+const SAME_BLOCKER: f64 = 0.02;
 /// More alternatives than this are not followed.
 const MOST_ALTERNATIVES: usize = 64;
 
@@ -169,10 +171,10 @@ impl Map<'_> {
         (radius, angle): (Approx, Approx),
         taps: u32,
     ) -> Option<Blockers> {
-        let mut sums = vec![(0.0, 0u32)];
+        let mut sums = vec![(Approx::exact(0.0), 0u32)];
         for i in 0..taps {
             let found = self.blocker_at(point, vogel(i, taps, angle).map(|c| radius * c))?;
-            let add = |(sum, count): (f64, u32), depth: Option<f64>| match depth {
+            let add = |(sum, count): (Approx, u32), depth: Option<Approx>| match depth {
                 Some(depth) => (sum + depth, count + 1),
                 None => (sum, count),
             };
@@ -181,32 +183,28 @@ impl Map<'_> {
                 return None;
             }
         }
-        // A sum of positive terms loses half an ulp a term.
-        let sum =
-            |sum: f64, count: u32| Approx { value: sum, error: f64::from(count) * super::approx::U * sum };
-        let mean =
-            |(total, count): (f64, u32)| (count > 0).then(|| sum(total, count) / Approx::exact(count.into()));
+        let mean = |(sum, count): (Approx, u32)| (count > 0).then(|| sum / Approx::exact(count.into()));
         Some(sums.into_iter().map(mean).collect())
     }
 
-    /// What a search tap may find.
-    fn blocker_at(&self, point: &Point, offset: [Approx; 2]) -> Option<Vec<Option<f64>>> {
-        let mut found = Vec::new();
+    /// What a search tap may find: nothing, or a depth.
+    fn blocker_at(&self, point: &Point, offset: [Approx; 2]) -> Option<Vec<Option<Approx>>> {
+        let (mut none, mut depths) = (false, Vec::new());
         for texel in texels_at(self.place(point, offset))? {
             let (depth, compared) = self.compare(point, texel);
             let compared = if self.is_outside(texel) { Compared::Lit } else { compared };
-            let outcomes: &[Option<f64>] = match compared {
-                Compared::Lit => &[None],
-                Compared::Dark => &[Some(depth)],
-                Compared::Open => &[None, Some(depth)],
-            };
-            outcomes
-                .iter()
-                .filter(|o| !found.contains(*o))
-                .copied()
-                .collect::<Vec<_>>()
-                .into_iter()
-                .for_each(|o| found.push(o));
+            none |= compared != Compared::Dark;
+            depths.extend((compared != Compared::Lit).then_some(depth));
+        }
+        depths.sort_by(f64::total_cmp);
+        let range = |group: &[f64]| {
+            let (low, high) = (group[0], group[group.len() - 1]);
+            Some(Approx { value: 0.5 * (low + high), error: 0.5 * (high - low) })
+        };
+        // Neighbouring texels of one surface are one outcome.
+        let mut found: Vec<_> = depths.chunk_by(|a, b| b - a < SAME_BLOCKER).map(range).collect();
+        if none {
+            found.push(None);
         }
         Some(found)
     }

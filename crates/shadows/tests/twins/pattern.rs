@@ -23,17 +23,19 @@ impl Pattern {
             Seeding::Fresh | Seeding::Frozen => Approx::exact(0.0),
         };
         let noise = gradient_noise(pixel.map(|c| Approx::exact(f64::from(c) + 0.5) + shift));
-        match self.seeding {
-            Seeding::Fresh => (noise + Approx::exact(self.phase(pixel))).fract(),
-            Seeding::Frozen | Seeding::Animated => noise,
-        }
+        (noise + Approx::exact(self.phase(pixel))).fract()
     }
 
-    /// An offset for the frame, the seed, the pass and the block of 16 x 16 pixels: 24 bits of a
-    /// hash of hashes.
+    /// What is added to the noise, from 24 bits of a hash of hashes. Fresh: an offset for the frame,
+    /// the seed, the pass and the block of 16 x 16 pixels. Otherwise: one for the seed and the pass,
+    /// none for seed 0.
     pub(crate) fn phase(&self, pixel: [u32; 2]) -> f64 {
         let [x, y] = pixel.map(|c| c / 16);
-        let chain = [self.pass, self.frame, self.seed, y, x];
+        let chain = match self.seeding {
+            Seeding::Fresh => vec![self.pass, self.frame, self.seed, y, x],
+            Seeding::Frozen | Seeding::Animated if self.seed == 0 => return 0.0,
+            Seeding::Frozen | Seeding::Animated => vec![self.pass, self.seed],
+        };
         let hash = chain.into_iter().fold(0, |hash, word| pcg(word ^ hash));
         f64::from(hash / 256) / 16_777_216.0
     }

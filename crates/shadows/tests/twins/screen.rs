@@ -2,7 +2,6 @@
 
 use super::approx::{Approx, Approx3, U};
 use umbrage_frame::{Image, View};
-use umbrage_scene::Camera;
 
 /// A point that is shaded, and where it is seen (pixels).
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +13,7 @@ pub(crate) struct Receiver {
 
 /// The surface at a pixel centre, from linear depth and normal; `None` where nothing is seen.
 pub(crate) fn surface(
-    (camera, view): (&Camera, &View),
+    view: &View,
     (depths, normals): (&Image<f32>, &[Image<f32>]),
     [x, y]: [u32; 2],
 ) -> Option<Receiver> {
@@ -28,12 +27,12 @@ pub(crate) fn surface(
     let (one, two) = (Approx::exact(1.0), Approx::exact(2.0));
     let right = (place[0] / width * two - one) * (tan * width / height) * depth;
     let up = (one - place[1] / height * two) * tan * depth;
-    // The pose passes through two matrix inversions, by cofactors: about 16 roundings each.
-    let entry = |value: f32, scale: f64| Approx { value: value.into(), error: 32.0 * U * scale };
-    let pose = camera.world_from_camera;
-    let reach = f64::from(camera.eye().abs().element_sum());
+    // The pose passes through a matrix inversion by cofactors: about 20 roundings.
+    let entry = |value: f64, scale: f64| Approx { value, error: 20.0 * U * scale };
+    let pose = view.camera_from_world.as_dmat4().inverse();
+    let reach = pose.w_axis.truncate().abs().element_sum();
     let axis = |k: usize| Approx3(pose.col(k).truncate().to_array().map(|c| entry(c, 1.0)));
-    let eye = Approx3(camera.eye().to_array().map(|c| entry(c, reach)));
+    let eye = Approx3(pose.w_axis.truncate().to_array().map(|c| entry(c, reach)));
     let position = axis(0).times(right).plus(axis(1).times(up)).plus(axis(2).times(-depth)).plus(eye);
     let normal = Approx3(std::array::from_fn(|k| Approx::from(*normals[k].at(x, y)))).normalized();
     Some(Receiver { position, normal, place })
