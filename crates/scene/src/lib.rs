@@ -22,6 +22,8 @@ mod paths;
 mod rays;
 mod spec;
 mod suggest;
+#[cfg(test)]
+mod tests;
 
 pub use builtin::builtin_names;
 pub use camera::{Camera, CameraPath, PathFrame};
