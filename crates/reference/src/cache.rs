@@ -9,6 +9,7 @@
 mod entry;
 
 use crate::{GroundTruth, Points, ReferenceError, Tracer, TruthSettings};
+use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -24,6 +25,13 @@ pub struct Cache {
 /// The content that a truth follows from: scene, points, light, settings and tool version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TruthKey([u8; 32]);
+
+impl fmt::Display for TruthKey {
+    /// 64 hexadecimal digits.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&blake3::Hash::from_bytes(self.0).to_hex())
+    }
+}
 
 /// Where a truth came from.
 #[derive(Debug)]
@@ -101,7 +109,7 @@ impl Cache {
 
     /// Where the entry of a key is kept.
     pub fn path(&self, key: TruthKey) -> PathBuf {
-        let hex = blake3::Hash::from_bytes(key.0).to_hex();
+        let hex = key.to_string();
         let (shelf, name) = hex.split_at(2);
         self.folder.join(shelf).join(name)
     }
