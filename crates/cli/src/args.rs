@@ -184,11 +184,15 @@ pub(crate) enum Listed {
     Adapters,
 }
 
+/// The largest texture of common adapters: refused here, before truth takes all memory for it.
+const MAX_SIDE: u32 = 16_384;
+
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, as in 1920x1080")?;
     let side = |s: &str| s.trim().parse::<u32>().map_err(|e| format!("\"{s}\" is no size: {e}"));
     match (side(width)?, side(height)?) {
         (0, _) | (_, 0) => Err("a picture has at least one pixel a side".into()),
+        (w, h) if w.max(h) > MAX_SIDE => Err(format!("a picture has at most {MAX_SIDE} pixels a side")),
         size => Ok(size),
     }
 }

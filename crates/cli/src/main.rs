@@ -2,13 +2,14 @@
 //!
 //! Arguments become a typed plan, the plan is run, the run becomes a report. Only this crate reads
 //! the environment, the clock and the terminal.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is the program that talks to people")]
+#![expect(clippy::print_stderr, reason = "this is the program that talks to people")]
 
 mod args;
 mod clock;
 mod commands;
 mod error;
 mod interrupt;
+mod output;
 mod progress;
 mod run;
 mod scenes;

@@ -15,7 +15,11 @@ pub(crate) fn find_scene(what: &Path) -> Result<(Scene, Option<SceneFile>), CliE
         // A plain word: the error names the nearest standard scene.
         return Ok((Scene::builtin(&name)?, None));
     }
-    let (scene, file) = Scene::load_with_file(what)?;
+    let (scene, mut file) = Scene::load_with_file(what)?;
     let bare = what.is_file() && what.extension().is_none_or(|e| e != "toml");
+    if bare {
+        // The file is kept beside the report: it must find the model from there.
+        file.geometry.files = vec![std::path::absolute(what).map_err(CliError::file(what))?];
+    }
     Ok((scene, bare.then_some(file)))
 }

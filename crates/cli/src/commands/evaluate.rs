@@ -4,6 +4,7 @@ use super::open_gpu;
 use crate::args::{EvaluateArgs, ReportKind};
 use crate::clock;
 use crate::error::CliError;
+use crate::output::print;
 use crate::run::{Settings, evaluate};
 use crate::suite::Plan;
 use std::path::{Path, PathBuf};
@@ -24,14 +25,16 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
         now,
     };
     let outcome = evaluate(&plan, &settings, &mut gpu);
-    // A run that scored nothing still has pictures that show why.
-    let pages = out.join("scorecard.json").exists().then(|| pages(&out, args.report)).transpose()?;
+    // A run that scored nothing still has pictures that show why; one that broke off has at most the
+    // scorecard of an earlier run in its folder.
+    let stored = matches!(outcome, Ok(_) | Err(CliError::NothingScored(_)));
+    let pages = stored.then(|| pages(&out, args.report)).transpose()?;
     let (card, warnings) = outcome?;
     for warning in warnings.iter().chain(pages.iter().flat_map(|p| &p.warnings)) {
         eprintln!("warning: {warning}");
     }
     if args.json {
-        println!("{}", card.to_json()?.trim_end());
+        print(card.to_json()?.trim_end())?;
     }
     if let Some(written) = pages {
         eprintln!("report: {}", written.index.display());

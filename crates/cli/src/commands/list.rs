@@ -2,6 +2,7 @@
 
 use crate::args::{ListArgs, Listed};
 use crate::error::CliError;
+use crate::output::print;
 use serde_json::{Value, json};
 use umbrage_metrics::METRICS;
 use umbrage_scene::{Scene, builtin_names};
@@ -21,12 +22,7 @@ pub(crate) fn run(args: &ListArgs) -> Result<(), CliError> {
         Listed::Metrics => metrics(),
         Listed::Adapters => adapter_table(),
     };
-    if args.json {
-        print_json(&table)
-    } else {
-        print_text(&table)
-    }
-    Ok(())
+    print(&if args.json { json_of(&table) } else { text_of(&table) })
 }
 
 fn scenes() -> Result<Table, CliError> {
@@ -105,24 +101,26 @@ fn adapter_table() -> Table {
     }
 }
 
-fn print_json(table: &Table) {
+fn json_of(table: &Table) -> String {
     let object = |row: &Vec<String>| {
         let pairs = table.columns.iter().zip(row).map(|(column, cell)| ((*column).to_string(), json!(cell)));
         Value::Object(pairs.collect())
     };
-    println!("{:#}", Value::Array(table.rows.iter().map(object).collect()));
+    format!("{:#}", Value::Array(table.rows.iter().map(object).collect()))
 }
 
 /// Columns aligned, except the last, which may be long.
-fn print_text(table: &Table) {
+fn text_of(table: &Table) -> String {
     let header = table.columns.iter().map(|c| (*c).to_string()).collect::<Vec<_>>();
     let width = |column: usize| {
         let cells = table.rows.iter().chain([&header]).map(|row| row[column].chars().count());
         cells.max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..header.len()).map(width).collect();
-    for row in [&header].into_iter().chain(&table.rows) {
+    let line = |row: &Vec<String>| {
         let cells = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:width$}"));
-        println!("{}", cells.collect::<Vec<_>>().join("  ").trim_end());
-    }
+        cells.collect::<Vec<_>>().join("  ").trim_end().to_string()
+    };
+    let lines: Vec<String> = [&header].into_iter().chain(&table.rows).map(line).collect();
+    lines.join("\n")
 }

@@ -2,6 +2,7 @@
 
 use crate::args::{MethodArg, ReferenceArgs};
 use crate::error::CliError;
+use crate::output::print;
 use crate::scenes::find_scene;
 use crate::views::{frame_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
@@ -42,8 +43,7 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
         );
     }
     write_exr(&args.out, &layers)?;
-    println!("{}", args.out.display());
-    Ok(())
+    print(&args.out.display().to_string())
 }
 
 /// A value per hit as a picture; 0 where nothing is hit.

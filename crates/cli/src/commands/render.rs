@@ -3,6 +3,7 @@
 use super::open_gpu;
 use crate::args::RenderArgs;
 use crate::error::CliError;
+use crate::output::print;
 use crate::scenes::find_scene;
 use crate::suite::variants_of;
 use crate::views::{frame_of, path_of, view_of};
@@ -31,11 +32,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
             let mask = Image::from_pixels(size.0, size.1, shaded.values);
             let file = args.out.join(format!("{stem}.exr"));
             write_exr(&file, &[("visibility.V".to_string(), mask)])?;
-            println!("{}", file.display());
+            print(&file.display().to_string())?;
             for dump in &dumps {
                 let file = args.out.join(format!("{stem}.{}.exr", dump.label));
                 write_exr(&file, &layers(dump))?;
-                println!("{}", file.display());
+                print(&file.display().to_string())?;
             }
         }
         if args.dump {
@@ -56,7 +57,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
                 "reference_gap_metres": map.reference_gap,
             });
             std::fs::write(&file, format!("{matrices:#}\n")).map_err(CliError::file(&file))?;
-            println!("{}", file.display());
+            print(&file.display().to_string())?;
         }
     }
     Ok(())

@@ -3,6 +3,7 @@
 use super::evaluate::layout;
 use crate::args::ReportArgs;
 use crate::error::CliError;
+use crate::output::print;
 use umbrage_report::write_report;
 
 pub(crate) fn run(args: &ReportArgs) -> Result<(), CliError> {
@@ -10,6 +11,5 @@ pub(crate) fn run(args: &ReportArgs) -> Result<(), CliError> {
     for warning in &written.warnings {
         eprintln!("warning: {warning}");
     }
-    println!("{}", written.index.display());
-    Ok(())
+    print(&written.index.display().to_string())
 }

@@ -180,6 +180,12 @@ impl Run<'_> {
             let measured = match self.units.read(&key) {
                 Some(stored) => stored,
                 None => {
+                    if self.units.discard_damaged(&key) {
+                        let place = format!("{}, {}, {}", window.scene, window.path, variant.name());
+                        self.progress.note(&format!(
+                            "warning: {place}: a cached result was damaged; it is measured again"
+                        ));
+                    }
                     let fresh = measure::measure(window, variant, renderer, self.plan)?;
                     self.units.write(&key, &fresh);
                     fresh

@@ -32,6 +32,10 @@ pub(super) fn shade_panel(
     draw: Draw,
 ) -> Result<Panel, CliError> {
     let points = window.anchors.len();
+    if points == 0 {
+        // A pass over no anchors would still answer for one.
+        return Ok(Panel { points, frames: draw.frames, seeds: draw.seeds as usize, values: vec![] });
+    }
     let mut values = Vec::with_capacity(points * draw.frames * draw.seeds as usize);
     for (frame, (view, light)) in window.frames.iter().take(draw.frames).enumerate() {
         let pixels = match reading {

@@ -67,6 +67,13 @@ impl Units {
         Ok(units)
     }
 
+    /// Takes away a unit that is there but not whole, so that it can be stored again; whether there
+    /// was one.
+    pub(super) fn discard_damaged(&self, key: &str) -> bool {
+        let path = self.path(key);
+        path.exists() && self.read(key).is_none() && std::fs::remove_dir_all(path).is_ok()
+    }
+
     /// A unit that is there and whole.
     pub(super) fn read(&self, key: &str) -> Option<Measured> {
         let folder = self.path(key);
