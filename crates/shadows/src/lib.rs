@@ -8,6 +8,7 @@ mod error;
 mod gpu;
 mod layout;
 mod light_map;
+mod map_depths;
 mod recording;
 mod renderer;
 mod shader;

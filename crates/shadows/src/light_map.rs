@@ -1,7 +1,8 @@
 //! The shadow map's projection: orthographic for a sun, perspective for a light that has a place.
 
+use crate::map_depths::Pyramid;
 use glam::{Mat4, Vec3};
-use umbrage_scene::{AreaLight, Geometry, Scene, ShadowRegion};
+use umbrage_scene::{AreaLight, Scene, ShadowRegion};
 
 /// Which of the two projections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +28,7 @@ pub struct LightMap {
     pub scale: f32,
     /// Sun: tangent of the angular radius. Local: radius in metres (disc of equal area).
     pub light_size: f32,
-    /// Smallest depth of any vertex in the map, metres.
+    /// Smallest depth of any surface in the map (sun: of any vertex of the scene), metres.
     pub nearest_blocker: f32,
     /// Depth of the far plane, metres.
     pub far: f32,
@@ -84,9 +85,10 @@ impl LightMap {
         let light_from_world = view_matrix(eye, axis);
         let near = 1e-3 * distance;
         let scale = 0.5 / half_angle.tan();
-        let depths = depths_inside(&scene.geometry, light_from_world, scale, near);
-        let (nearest_blocker, farthest) = depths;
-        let far = farthest * 1.01 + 0.01;
+        let (nearest, farthest) = Pyramid::new(scale, near).depths(&scene.geometry, light_from_world);
+        // Without any surface there is nothing to search.
+        let nearest_blocker = nearest.unwrap_or(near);
+        let far = farthest.max(near) * 1.01 + 0.01;
         let projection = glam::camera::rh::proj::directx::perspective(2.0 * half_angle, 1.0, near, far);
         Self {
             kind: LightKind::Local,
@@ -123,19 +125,4 @@ impl LightMap {
 fn view_matrix(eye: Vec3, forward: Vec3) -> Mat4 {
     let up = if forward.y.abs() > 0.99 { Vec3::NEG_Z } else { Vec3::Y };
     glam::camera::rh::view::look_to_mat4(eye, forward, up)
-}
-
-/// Smallest and largest depth of the vertices that the map sees.
-fn depths_inside(geometry: &Geometry, light_from_world: Mat4, scale: f32, near: f32) -> (f32, f32) {
-    let mut range = (f32::INFINITY, near);
-    for &position in &geometry.positions {
-        let p = light_from_world.transform_point3(position);
-        let depth = -p.z;
-        let inside = depth > near && p.x.abs().max(p.y.abs()) * scale <= 0.5 * depth;
-        range.1 = range.1.max(depth);
-        if inside {
-            range.0 = range.0.min(depth);
-        }
-    }
-    (if range.0.is_finite() { range.0 } else { near }, range.1)
 }

@@ -2,6 +2,7 @@
 
 use crate::recording::{Format, Pass, RasterPass, Recording, TextureId, TextureInfo};
 use crate::{Inputs, shader};
+use umbrage_frame::View;
 
 /// What the camera sees.
 #[derive(Clone, Copy, Debug)]
@@ -18,10 +19,13 @@ pub(crate) fn depth_prepass(recording: &mut Recording, inputs: &Inputs<'_>) -> S
         return Surfaces { depth, normal };
     }
     let (width, height) = (inputs.view.width, inputs.view.height);
-    let info = |label, format| TextureInfo { label, width, height, format, kept: None };
+    // The seeds and variants of one frame see the same surfaces.
+    let kept = Some(view_key(inputs.view) ^ inputs.geometry_key);
+    let info = |label, format| TextureInfo { label, width, height, format, kept };
     let depth = recording.texture(info("camera-depth", Format::R32Float));
     let normal = recording.texture(info("camera-normal", Format::Rgba16Float));
-    let buffer = recording.texture(info("camera-depth-buffer", Format::Depth32Float));
+    let buffer =
+        recording.texture(TextureInfo { kept: None, ..info("camera-depth-buffer", Format::Depth32Float) });
     recording.passes.push(Pass::Raster(RasterPass {
         label: "depth-prepass",
         shader: vec![shader::RASTER_CAMERA, shader::GLOBALS],
@@ -29,4 +33,12 @@ pub(crate) fn depth_prepass(recording: &mut Recording, inputs: &Inputs<'_>) -> S
         depth: buffer,
     }));
     Surfaces { depth, normal }
+}
+
+/// Identifies what a view sees of a geometry.
+fn view_key(view: &View) -> u64 {
+    let matrices = [view.clip_from_world, view.camera_from_world];
+    let words = matrices.iter().flat_map(|m| m.to_cols_array()).map(f32::to_bits);
+    let seed = u64::from(view.width) << 32 | u64::from(view.height);
+    words.fold(seed, |hash, w| (hash ^ u64::from(w)).wrapping_mul(0x0100_0000_01b3).rotate_left(23))
 }

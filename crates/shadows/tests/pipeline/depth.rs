@@ -1,10 +1,12 @@
 //! Rasterised depth, of the light and of the camera, against a brute-force ray cast in f64.
 
+use crate::support::edited::{Edit, with_edit};
 use crate::support::{self, still_life, variant_id};
 use glam::{DVec3, Vec3};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use umbrage_frame::{Image, View};
 use umbrage_scene::{AreaLight, Camera, Scene};
-use umbrage_shadows::{Calibration, Renderer, Seeding};
+use umbrage_shadows::{Calibration, Dump, Renderer, Seeding, VariantId};
 
 /// Rays through places of a picture (in texels), such that the ray's parameter is linear depth.
 struct Caster {
@@ -120,35 +122,74 @@ fn compare(depths: &Image<f32>, scene: &Scene, (caster, far): (&Caster, f64), sa
 /// At most this share lies within 1/256 pixel of a silhouette, or on a surface seen edge-on.
 const SILHOUETTE_SHARE: f64 = 0.02;
 
-fn check(scene: &Scene, light: AreaLight, samples: u32) {
+/// The targets of a variant, its own map's far plane first.
+fn targets(scene: &Scene, light: &AreaLight, variant: VariantId) -> (f64, Vec<Dump>) {
     let view = still_life::view_of(&still_life::camera());
-    let variant = variant_id("hard", Calibration::LightMatched);
     let mut gpu = support::gpu();
     let mut renderer = Renderer::new(&mut gpu, scene, 512).expect("fits");
-    let far = f64::from(renderer.light_map(&light).far);
-    let (_, dumps) = renderer.dump(variant, (&view, &light), (Seeding::Frozen, [0, 0])).expect("runs");
-    drop(gpu);
+    let far = f64::from(renderer.light_map(light).far);
+    let dumped = renderer.dump(variant, (&view, light), (Seeding::Frozen, [0, 0]));
+    (far, dumped.expect("runs").1)
+}
+
+fn hard() -> VariantId {
+    variant_id("hard", Calibration::LightMatched)
+}
+
+fn check(scene: &Scene, light: AreaLight, (variant, samples): (VariantId, u32)) {
+    let (far, dumps) = targets(scene, &light, variant);
     let target = |label| &dumps.iter().find(|d| d.label == label).expect("dumped").channels[0];
-    let caster = Caster::of_light(scene, &light);
-    let silhouettes = compare(target("shadow-map"), scene, (&caster, far), samples);
-    let share = f64::from(silhouettes as u32) / f64::from(samples);
-    assert!(share <= SILHOUETTE_SHARE, "{share} of the texels lie on silhouettes");
-    let caster = Caster::of_camera(&still_life::camera(), &view);
-    // Where nothing is seen, the target holds 0.
-    let silhouettes = compare(target("camera-depth"), scene, (&caster, 0.0), samples);
-    assert!(f64::from(silhouettes as u32) <= SILHOUETTE_SHARE * f64::from(samples));
+    let camera = still_life::camera();
+    let view = still_life::view_of(&camera);
+    let casters = [
+        (target("shadow-map"), Caster::of_light(scene, &light), far),
+        // Where nothing is seen, the target holds 0.
+        (target("camera-depth"), Caster::of_camera(&camera, &view), 0.0),
+    ];
+    for (depths, caster, nothing) in casters {
+        let silhouettes = compare(depths, scene, (&caster, nothing), samples);
+        let share = silhouettes as f64 / f64::from(samples);
+        assert!(share <= SILHOUETTE_SHARE, "{share} of the pixels lie on silhouettes");
+    }
 }
 
 #[test]
 fn shadow_map_and_camera_depth_equal_a_ray_cast() {
     let scene = still_life::scene();
     for light in [still_life::sun(), still_life::sphere(), still_life::disk()] {
-        check(&scene, light, 4000);
+        check(&scene, light, (hard(), 4000));
     }
 }
 
 #[test]
 fn shadow_map_of_a_standard_scene_equals_a_ray_cast() {
     let scene = Scene::builtin("colonnade").expect("built in");
-    check(&scene, scene.lights[0], 600);
+    check(&scene, scene.lights[0], (hard(), 600));
+}
+
+#[test]
+fn the_ray_cast_notices_planted_errors() {
+    let scene = still_life::scene();
+    let moved = |by: &'static str| Edit {
+        fragment: "raster_shadow",
+        from: "globals.light_clip_from_world * world",
+        to: by,
+    };
+    let plants = [
+        // A tenth of a texel of 512: 2 / 5120 in clip space (under a sun w is 1).
+        moved("globals.light_clip_from_world * world + vec4(0.00039, 0.0, 0.0, 0.0)"),
+        moved("(globals.light_clip_from_world * world) * vec4(1.0, -1.0, 1.0, 1.0)"),
+        Edit { fragment: "raster_shadow", from: "return in.depth", to: "return in.depth + 0.0005" },
+        Edit {
+            fragment: "raster_camera",
+            from: "clip, position, normal, clip.w",
+            to: "clip, position, normal, clip.z",
+        },
+    ];
+    for edit in plants {
+        let variant = with_edit(variant_id("chss-mask", Calibration::LightMatched), edit);
+        let checked = || check(&scene, still_life::sun(), (variant, 4000));
+        let noticed = catch_unwind(AssertUnwindSafe(checked)).is_err();
+        assert!(noticed, "{edit:?} was not noticed");
+    }
 }

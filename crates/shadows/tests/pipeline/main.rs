@@ -10,4 +10,5 @@ mod bias;
 mod constants;
 mod depth;
 mod kept_maps;
+mod nearest;
 mod seeding;

@@ -1,6 +1,7 @@
 //! Twin of the shadow map's projection, of the three kinds of bias, and of the penumbra laws.
 
 use super::approx::{Approx, Approx3, sum};
+use super::pyramid::nearest;
 use glam::Vec3;
 use umbrage_scene::{AreaLight, Scene};
 use umbrage_shadows::{Bias, Calibration, ConstantBias, ReceiverPlane};
@@ -78,19 +79,11 @@ impl Light {
             };
             let steepest = f64::from(region.width_world) / (2.0 * eye_distance.value);
             assert!(steepest < 60f64.to_radians().tan(), "tests stay below the widest map");
-            local.nearest = local.nearest_inside(&scene.geometry.positions);
+            let corners = |t| scene.geometry.corners(t).map(|p| local.coordinates(Approx3::from_vec(p)));
+            let triangles: Vec<_> = (0..scene.geometry.triangles.len()).map(corners).collect();
+            local.nearest = nearest(&triangles, local.scale);
             local
         }
-    }
-
-    /// Smallest depth of a vertex that the map sees.
-    fn nearest_inside(&self, positions: &[Vec3]) -> Approx {
-        let inside = |p: &Approx3| {
-            let [x, y, z] = p.0.map(|c| c.value);
-            z < 0.0 && x.abs().max(y.abs()) * self.scale.value <= -0.5 * z
-        };
-        let seen = positions.iter().map(|&p| self.coordinates(Approx3::from_vec(p))).filter(inside);
-        seen.map(|p| -p.0[2]).reduce(Approx::min).expect("the map sees a vertex")
     }
 
     /// Light-space coordinates of a world point.

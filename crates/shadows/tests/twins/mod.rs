@@ -5,5 +5,6 @@ pub(crate) mod approx;
 pub(crate) mod light;
 pub(crate) mod map;
 pub(crate) mod pattern;
+pub(crate) mod pyramid;
 pub(crate) mod screen;
 pub(crate) mod variants;

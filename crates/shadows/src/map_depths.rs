@@ -1,0 +1,54 @@
+//! How deep a local light's map reaches: the least depth of any surface inside its pyramid.
+
+use glam::{Mat4, Vec3, Vec4};
+use umbrage_scene::Geometry;
+
+/// The pyramid that a map sees, in light space.
+pub(crate) struct Pyramid {
+    /// A point is inside where the product with each is not negative: the near plane, four sides.
+    planes: [Vec4; 5],
+}
+
+impl Pyramid {
+    /// `scale` in map widths per unit of slope, `near` in metres.
+    pub(crate) fn new(scale: f32, near: f32) -> Self {
+        let side = |x: f32, y: f32| Vec4::new(x * scale, y * scale, -0.5, 0.0);
+        let near = Vec4::new(0.0, 0.0, -1.0, -near);
+        Self { planes: [near, side(1.0, 0.0), side(-1.0, 0.0), side(0.0, 1.0), side(0.0, -1.0)] }
+    }
+
+    /// Smallest depth inside (`None` where nothing is inside), and largest depth of any vertex. A
+    /// wall may cross the map without a vertex in it, so triangles are clipped.
+    pub(crate) fn depths(&self, geometry: &Geometry, light_from_world: Mat4) -> (Option<f32>, f32) {
+        let mut range = (None::<f32>, 0f32);
+        for triangle in 0..geometry.triangles.len() {
+            let corners = geometry.corners(triangle).map(|p| light_from_world.transform_point3(p));
+            range.1 = corners.iter().fold(range.1, |far, p| far.max(-p.z));
+            let visible = self.planes.iter().fold(corners.to_vec(), |shape, plane| clipped(shape, *plane));
+            let nearest = visible.iter().map(|p| -p.z).reduce(f32::min);
+            range.0 = range.0.into_iter().chain(nearest).reduce(f32::min);
+        }
+        range
+    }
+}
+
+/// The part of a convex polygon on the inner side of a plane (Sutherland and Hodgman 1974).
+fn clipped(shape: Vec<Vec3>, plane: Vec4) -> Vec<Vec3> {
+    let side = |p: Vec3| plane.dot(p.extend(1.0));
+    // Most triangles are not cut.
+    if shape.iter().all(|&p| side(p) >= 0.0) {
+        return shape;
+    }
+    let mut inner = Vec::with_capacity(shape.len() + 1);
+    for (k, &a) in shape.iter().enumerate() {
+        let b = shape[(k + 1) % shape.len()];
+        let (at_a, at_b) = (side(a), side(b));
+        if at_a >= 0.0 {
+            inner.push(a);
+        }
+        if (at_a >= 0.0) != (at_b >= 0.0) {
+            inner.push(a.lerp(b, at_a / (at_a - at_b)));
+        }
+    }
+    inner
+}
