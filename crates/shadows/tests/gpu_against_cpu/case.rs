@@ -137,8 +137,8 @@ impl Ran {
         tally
     }
 
-    /// Both readings of a point against each other: at least this share of them may differ by no
-    /// more than their bounds.
+    /// Both readings of a point against each other: wherever no decision is open, they differ by no
+    /// more than the bounds of the pixel's.
     pub(crate) fn check_readings_agree(&self) {
         let (light, name) = (self.light(), self.case.variant.variant.name);
         let twin = self.twin(&light, 0);
