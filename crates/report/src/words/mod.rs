@@ -2,6 +2,7 @@
 
 mod caption;
 mod compare;
+mod headline;
 mod line;
 mod sentences;
 mod span;

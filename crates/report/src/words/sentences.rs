@@ -1,4 +1,4 @@
-//! The answer: three to five sentences made from the pooled scores.
+//! The answer: three to six sentences made from the scores.
 //!
 //! Nothing is claimed that an interval does not carry; "could not be told apart" is an answer.
 
@@ -17,8 +17,9 @@ pub(crate) fn answer(card: &Scorecard) -> Vec<Sentence> {
         let text = "Nothing was scored: no anchors agreed in any view: check the camera. ";
         return vec![Sentence::default().text(text).section("scenes", "See the views.")];
     }
+    let headline = super::headline::min_against_mask(card);
     let sentences =
-        [Some(fidelity(all)), Some(motion(all)), trade_off(all), Some(cost(all)), Some(trust(all))];
+        [Some(fidelity(all)), Some(motion(all)), headline, trade_off(all), Some(cost(all)), Some(trust(all))];
     sentences.into_iter().flatten().collect()
 }
 

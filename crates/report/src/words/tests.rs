@@ -108,3 +108,40 @@ fn budgets_name_a_dearer_variant_only_when_it_is_better() {
     assert!(said.contains("nothing dearer is resolvably better"), "{said}");
     assert!(!said.contains("within 0.5 ms"), "{said}");
 }
+
+/// The fixture's card with one colonnade window and these differences of chss-mask and chss-min
+/// (mask minus min, as the program stores them).
+fn headline_card(swimming: Score, error: Score) -> Scorecard {
+    let mut card = scorecard(Device::Software, (48, 27));
+    card.paired.clear();
+    let find = |name: &str| {
+        let light_matched = |v: &&crate::VariantCard| v.calibration == crate::Calibration::LightMatched;
+        card.variants.iter().filter(light_matched).find(|v| v.name == name).expect("in the fixture").clone()
+    };
+    let (mask, min) = (find("chss-mask"), find("chss-min"));
+    let place = |wanted: &crate::VariantCard| card.variants.iter().position(|v| v == wanted).expect("there");
+    let (a, b) = (place(&mask), place(&min));
+    for window in &mut card.windows {
+        window.scene = "elsewhere".into();
+    }
+    card.windows[0].scene = "colonnade".into();
+    for (metric, difference) in [("swimming", swimming), ("error", error)] {
+        let resolved = !difference.contains(0.0);
+        card.paired.push(PairedCard { a, b, window: Some(0), metric: metric.into(), difference, resolved });
+    }
+    card
+}
+
+#[test]
+fn the_document_s_own_comparison_is_answered_claim_by_claim() {
+    // Stored as mask minus min: positive = the min filter is lower.
+    let said = say(&headline_card(score(4e-5, 2e-5), score(0.03, 0.01)));
+    assert!(
+        said.contains("\"chss-min (light-matched) swims less than chss-mask (light-matched)\": holds on"),
+        "{said}"
+    );
+    assert!(said.contains("\"The mask has the lower ERROR\": does not hold on"), "{said}");
+    let said = say(&headline_card(score(4e-5, 5e-5), score(-0.03, 0.01)));
+    assert!(said.contains("\": cannot be resolved on"), "{said}");
+    assert!(said.contains("\"The mask has the lower ERROR\": holds on"), "{said}");
+}

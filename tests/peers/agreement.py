@@ -1,0 +1,68 @@
+"""How well two estimates agree, against the noise that they must have."""
+from dataclasses import dataclass
+
+import numpy as np
+
+# How far a mean over a picture may be off: what other renderers reach among themselves. A cosine or
+# an area that is lost, or a penumbra of the wrong width, is percents.
+ACCEPTED = 1e-3
+
+
+@dataclass
+class Row:
+    """Umbrage against Mitsuba over a set of points."""
+    quantity: str
+    what: str
+    required: bool
+    points: int
+    ours: float
+    ratio: float        # ours over theirs
+    ratio_sigma: float
+    bias: float         # ours less theirs
+    bias_sigma: float
+    rmse: float
+    expected: float     # root of the mean variance of the difference
+    worst: float
+
+    @property
+    def accepted(self):
+        return abs(self.ratio - 1) <= ACCEPTED
+
+
+@dataclass
+class Agreement:
+    """Umbrage's values at the points, and Mitsuba's samples of each."""
+    ours: dict
+    spp: int
+
+    def row(self, key, label, theirs, keep):
+        """`label` is what to say of the row, and whether it must be accepted."""
+        what, required = label
+        a, b = self.ours[key][keep], theirs[key][keep]
+        difference = a - b
+        noise = self.variance(key, theirs)[keep].mean()
+        sigma = np.sqrt(noise / len(a))
+        return Row(
+            key, what, required, len(a), a.mean(), a.mean() / b.mean(), sigma / b.mean(),
+            difference.mean(), sigma, np.sqrt(np.mean(difference**2)), np.sqrt(noise), np.abs(difference).max(),
+        )
+
+    def variance(self, key, theirs):
+        """Of the difference at each point. Mitsuba's samples of V are independent, hence binomial,
+        with the fraction from umbrage, which knows it better. Umbrage states no variance for E: it
+        is left out, being about `noise_share` of Mitsuba's."""
+        if key != "V":
+            return theirs[f"{key}.variance"]
+        fraction = self.ours["V"]
+        return fraction * (1 - fraction) / self.spp + self.ours["V.variance"]
+
+    def noise_share(self):
+        """Umbrage's variance of V over Mitsuba's."""
+        return float(self.ours["V.variance"].mean() / self.variance("V", {}).mean())
+
+    def apart(self, theirs):
+        """|difference of V| in sigmas. Where umbrage says 0 or 1, it says so from a finite number
+        of samples: the fraction is taken one of Mitsuba's samples away from either end."""
+        fraction = (self.ours["V"] * self.spp + 1) / (self.spp + 2)
+        sigma = np.sqrt(fraction * (1 - fraction) / self.spp + self.ours["V.variance"])
+        return np.abs(self.ours["V"] - theirs["V"]) / sigma

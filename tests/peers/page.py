@@ -1,0 +1,121 @@
+"""The page: reports/peers/mitsuba.md and a picture for each case."""
+import platform
+import subprocess
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+import cases
+
+# The difference of V at which its picture's colours end, and how many steps they have: enough to
+# see a shape, few enough for a small file.
+SCALE, STEPS = 0.1, 8
+NOTHING, CONTACT = (40, 40, 60), (255, 220, 90)
+LESS, MORE = np.array([20, 80, 200]), np.array([200, 40, 20])
+
+
+def write(results, options):
+    options.out.mkdir(parents=True, exist_ok=True)
+    sections = [section(result) for result in results]
+    for result in results:
+        draw(result, options.out / f"{result.case.name}.png")
+    (options.out / "mitsuba.md").write_text("\n\n".join([head(results, options), *sections]) + "\n")
+
+
+def head(results, options):
+    failed = [f"{r.case.name}: {row.quantity}, {row.what}" for r in results for row in r.rows
+              if row.required and not row.accepted]
+    required = sum(row.required for r in results for row in r.rows)
+    verdict = "**Not accepted**: " + "; ".join(failed) if failed else f"**Accepted**: all {required} required ratios."
+    return f"""# Ground truth against Mitsuba 3
+
+Written by `tests/peers/compare.py`; its README says how to run it and what each number means.
+
+{verdict} Required is a mean ratio within 1e-3 of 1 (rows in bold).
+
+| | |
+| --- | --- |
+| umbrage | {said(options.umbrage, "--version")}, commit {said("git", "-C", cases.REPOSITORY, "rev-parse", "--short", "HEAD")}, {options.samples} light samples in each of two halves |
+| Mitsuba | {mi.__version__}, Dr.Jit {dr.__version__}, `{options.variant}`, {options.spp} independent samples a point |
+| Python | {platform.python_version()}, numpy {np.__version__} |
+| pictures | {options.size}, one point in the middle of each pixel |
+| command | `python tests/peers/compare.py atrium.obj{changed(options)}` |
+
+V is the unoccluded fraction of the light, E the irradiance from it, E0 the same with nothing
+between. *Ratio* is umbrage's mean over Mitsuba's, *bias* umbrage's less Mitsuba's, each with one
+standard error. *Expected* is what the RMSE would be from the noise of the samples alone. At "our
+points" Mitsuba looks at the light from umbrage's positions and normals, with rays lifted by 1e-5 of
+1 + the largest coordinate; points where a surface crosses the way to the light within 1 cm are left
+out, and counted. Mitsuba's own lift, 8.9e-5 of the same, lets light in under nearby blockers: the
+rows with lifts show the size of that, with the same samples each time.
+
+In the pictures, V is above; below is umbrage's V less Mitsuba's, from blue (-{SCALE}) over white to
+red (+{SCALE}), yellow where a contact is left out. Noise is to be seen in penumbrae, and no shape."""
+
+
+def said(*command):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+    return done.stdout.strip() or "unknown"
+
+
+def changed(options):
+    words = []
+    if options.case:
+        words += [f"--case {name}" for name in options.case]
+    for name, usual in (("size", "480x270"), ("samples", 4096), ("spp", 512), ("points", 6)):
+        if getattr(options, name) != usual:
+            words.append(f"--{name} {getattr(options, name)}")
+    return "".join(f" {word}" for word in words)
+
+
+def section(result):
+    case = result.case
+    light = ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in case.light.items())
+    apart = ", ".join(f"{count} beyond {level} sigma" for level, count in result.beyond.items())
+    return f"""## {case.name}
+
+![{case.name}]({case.name}.png)
+
+{result.triangles} triangles; light: {light}. Of {result.pixels} pixels {result.hit} hit a surface in
+umbrage; Mitsuba's camera sees another surface or none at {result.other_surface} of them (further than
+1 mm apart). {result.contact} points have a contact. {result.penumbra} are in a penumbra. Umbrage's own
+variance of V is {result.noise_share:.4f} of Mitsuba's. Points by their difference in V: {apart}.
+
+{table(result.rows)}
+
+Brute force (float64, every triangle, 4096 jittered samples) at single points:
+
+{witnesses(result.witnesses)}"""
+
+
+def table(rows):
+    lines = ["| | where | points | mean | ratio | bias | bias in sigma | RMSE | expected | worst point |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    for row in rows:
+        ratio = f"{row.ratio:.5f} ± {row.ratio_sigma:.5f}"
+        ratio = f"**{ratio}**" if row.required else ratio
+        lines.append(
+            f"| {row.quantity} | {row.what} | {row.points} | {row.ours:.4g} | {ratio} | {row.bias:+.1e} ± {row.bias_sigma:.0e} "
+            f"| {row.bias / row.bias_sigma:+.1f} | {row.rmse:.3g} | {row.expected:.3g} | {row.worst:.2g} |")
+    return "\n".join(lines)
+
+
+def witnesses(found):
+    lines = ["| chosen | point | apart, sigma | umbrage | Mitsuba | brute force |", "| --- | --- | --- | --- | --- | --- |"]
+    for w in found:
+        place = ", ".join(f"{x:.3f}" for x in w.place)
+        lines.append(f"| {w.why} | {place} | {w.apart:.1f} | {w.ours:.4f} | {w.theirs:.4f} | {w.value:.4f} ± {w.error:.4f} |")
+    return "\n".join(lines)
+
+
+def draw(result, path):
+    """V above the difference."""
+    grey = np.repeat(np.round(np.nan_to_num(result.ours) * 30)[..., None] * 8.5, 3, axis=2)
+    step = np.clip(np.round(result.difference / SCALE * STEPS) / STEPS, -1, 1)
+    weight = np.abs(np.nan_to_num(step))[..., None]
+    colour = 255 + weight * (np.where(step[..., None] < 0, LESS, MORE) - 255)
+    colour[np.isnan(result.difference)] = CONTACT
+    for image in (grey, colour):
+        image[np.isnan(result.ours)] = NOTHING
+    mi.Bitmap(np.concatenate([grey, colour]).astype(np.uint8)).write(str(path))
