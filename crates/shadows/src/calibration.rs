@@ -50,11 +50,11 @@ impl Calibration {
                 receiver_plane: ReceiverPlane::Off,
             },
             // f32 depth loses micrometres over tens of metres; 1 mm is the engines' usual constant.
-            // 87 degrees: beyond, one texel spans more depth than most blockers are away.
+            // Half a texel and 79 degrees were measured best on three scenes: docs/decisions/0002.
             Self::LightMatched => Bias {
                 constant: ConstantBias::World(0.001),
-                normal_offset_texels: 0.0,
-                receiver_plane: ReceiverPlane::On { max_slope: 20.0 },
+                normal_offset_texels: 0.5,
+                receiver_plane: ReceiverPlane::On { max_slope: 5.0 },
             },
         }
     }

@@ -1,0 +1,11 @@
+//! The program from outside: commands, exit codes, outputs, bad input, crashes.
+
+mod bad_files;
+mod bad_places;
+mod bad_scenes;
+mod commands;
+mod dump;
+mod models;
+mod outputs;
+mod recompute;
+mod robustness;
