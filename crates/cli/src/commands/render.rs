@@ -8,7 +8,7 @@ use crate::scenes::find_scene;
 use crate::suite::variants_of;
 use crate::views::{frame_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
-use umbrage_shadows::{Dump, Renderer, Seeding};
+use umbrage_shadows::{Calibration, Dump, LightMap, ReceiverPlane, Renderer, Seeding};
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let (scene, _) = find_scene(&args.scene)?;
@@ -55,12 +55,27 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
                 "nearest_blocker_metres": map.nearest_blocker,
                 "far_metres": map.far,
                 "reference_gap_metres": map.reference_gap,
+                "bias": Calibration::ALL.map(|calibration| (calibration.name().to_string(), bias(calibration, &map)))
+                    .into_iter().collect::<serde_json::Map<_, _>>(),
             });
             std::fs::write(&file, format!("{matrices:#}\n")).map_err(CliError::file(&file))?;
             print(&file.display().to_string())?;
         }
     }
     Ok(())
+}
+
+/// The three kinds of bias, for whoever recomputes a pixel.
+fn bias(calibration: Calibration, map: &LightMap) -> serde_json::Value {
+    let bias = calibration.default_bias();
+    serde_json::json!({
+        "constant_metres": bias.constant_world(map),
+        "normal_offset_texels": bias.normal_offset_texels,
+        "receiver_plane_max_slope": match bias.receiver_plane {
+            ReceiverPlane::Off => 0.0,
+            ReceiverPlane::On { max_slope } => max_slope,
+        },
+    })
 }
 
 /// Channels as viewers expect them: a map is a `Z` or `V`, a normal is `X Y Z`.
