@@ -18,7 +18,7 @@ use tempfile::TempDir;
 /// # Panics
 /// When the system gives none.
 pub fn empty_folder() -> TempDir {
-    tempfile::tempdir().expect("a temporary folder")
+    tempfile::Builder::new().prefix("umbrage-").tempdir().expect("a temporary folder")
 }
 
 /// A folder with `model.obj`: a plate, a tall box and a low one over a floor; and `scene.toml`, which
@@ -34,7 +34,8 @@ pub fn folder_with_scene() -> TempDir {
 }
 
 /// The table of a sun with penumbrae.
-pub const SUN: &str = "kind = \"sun\"\nangular_diameter_degrees = 2.0\nelevation_degrees = 50.0\nazimuth_degrees = 30.0";
+pub const SUN: &str =
+    "kind = \"sun\"\nangular_diameter_degrees = 2.0\nelevation_degrees = 50.0\nazimuth_degrees = 30.0";
 
 /// The motion of a camera that looks at the boxes and moves towards them.
 pub const DOLLY: &str =

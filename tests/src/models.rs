@@ -36,8 +36,7 @@ impl Mesh {
         // Corner k takes the high x, y or z where bit 0, 1 or 2 is set.
         let pick = |k: usize, axis: usize| if k >> axis & 1 == 1 { high[axis] } else { low[axis] };
         self.positions.extend((0..8).map(|k| [pick(k, 0), pick(k, 1), pick(k, 2)]));
-        let faces =
-            [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
         self.quads.extend(faces.map(|face: [u32; 4]| face.map(|k| first + k)));
     }
 
