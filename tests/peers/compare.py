@@ -32,27 +32,32 @@ def main():
     options = arguments()
     mi.set_variant(options.variant)
     with tempfile.TemporaryDirectory() as folder:
-        results = [run(name, options, Path(folder)) for name in options.case or cases.NAMES]
+        results = [run(name, options, Path(folder)) for name in options.case]
     page.write(results, options)
     verdicts = [row.accepted for result in results for row in result.rows if row.required]
     print("accepted" if all(verdicts) else "NOT accepted", f"({sum(verdicts)} of {len(verdicts)})")
     return 0 if all(verdicts) else 1
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("atrium", type=Path, help="OBJ of the atrium")
+def arguments(about=__doc__):
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("atrium", type=Path, nargs="?", help="OBJ of the atrium; without it, only built-in scenes")
     parser.add_argument("--umbrage", type=Path, default=cases.REPOSITORY / "target/release/umbrage")
     parser.add_argument("--size", default="480x270", help="WIDTHxHEIGHT")
     parser.add_argument("--samples", type=int, default=4096, help="umbrage's, in each of its two halves")
     parser.add_argument("--spp", type=int, default=512, help="Mitsuba's, a multiple of 32")
-    parser.add_argument("--case", action="append", choices=cases.NAMES, help="all otherwise")
+    parser.add_argument("--case", action="append", choices=cases.NAMES, help="several by repeating; all otherwise")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="Mitsuba's; a vectorised one")
     parser.add_argument("--points", type=int, default=6, help="brute-forced in each case, twice")
     parser.add_argument("--out", type=Path, default=cases.REPOSITORY / "reports/peers")
     options = parser.parse_args()
     if options.spp < 64 or options.spp % 32:
         parser.error("--spp: a multiple of 32, at least 64")
+    options.case = options.case or (cases.NAMES if options.atrium else [cases.BUILTIN_CASE])
+    if not options.atrium and options.case != [cases.BUILTIN_CASE]:
+        parser.error("these cases need the atrium's OBJ")
+    if not options.umbrage.exists():
+        parser.error(f"{options.umbrage} is missing: cargo build --release, or name another with --umbrage")
     return options
 
 
@@ -80,11 +85,9 @@ def run(name, options, folder):
     from peer import Peer, Settings
     started = time.time()
     case = cases.make(name, options.atrium, folder)
-    truth = umbrage(case, options, folder)
-    hit = truth["depth.Z"].ravel() > 0
-    points = vectors(truth, "position")[hit], vectors(truth, "normal")[hit]
-    agreement = Agreement({key: truth[layer].ravel()[hit] for key, layer in LAYERS.items()}, options.spp)
-    ours = agreement.ours["V"]
+    hit, points, values = umbrage(case, options, folder)
+    agreement = Agreement(values, options.spp)
+    ours = values["V"]
 
     peer = Peer(case)
     size = [int(side) for side in options.size.split("x")]
@@ -117,18 +120,17 @@ def run(name, options, folder):
 
 
 def umbrage(case, options, folder):
-    """The layers of `umbrage reference` by name."""
+    """Where `umbrage reference` hits something; positions and normals there; values there."""
     out = folder / f"{case.name}.exr"
     command = [str(options.umbrage), "reference", *case.arguments(), "--size", options.size,
                "--samples", str(options.samples), "--out", str(out)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     bitmap = mi.Bitmap(str(out))
-    values = np.array(bitmap)
-    return {field.name: values[..., k].astype(float) for k, field in enumerate(bitmap.struct_())}
-
-
-def vectors(layers, name):
-    return np.stack([layers[f"{name}.{axis}"].ravel() for axis in "XYZ"], axis=1)
+    pixels = np.array(bitmap, dtype=float).reshape(-1, bitmap.channel_count())
+    layers = {field.name: pixels[:, k] for k, field in enumerate(bitmap.struct_())}
+    hit = layers["depth.Z"] > 0
+    points = [np.stack([layers[f"{name}.{axis}"][hit] for axis in "XYZ"], axis=1) for name in ("position", "normal")]
+    return hit, points, {key: layers[name][hit] for key, name in LAYERS.items()}
 
 
 def picture(values, hit, size):

@@ -1,4 +1,5 @@
 """The page: reports/peers/mitsuba.md and a picture for each case."""
+import hashlib
 import platform
 import subprocess
 
@@ -33,28 +34,31 @@ def head(results, options):
 
 Written by `tests/peers/compare.py`; its README says how to run it and what each number means.
 
-{verdict} Required (rows in bold) is a mean ratio within {ACCEPTED} of 1, and of V at our points also
-a mean square that exceeds the expected one by at most {EXCESS:.0f} sigma: the mean alone would not see a
-penumbra that is too wide.
+{verdict} Required (rows in bold) is a mean ratio within {ACCEPTED:g}
+of 1, and of V at umbrage's points also a mean square that exceeds the expected one by at most
+{EXCESS:g} sigma: the mean alone would not see a penumbra that is too wide (`planted.md`).
 
 | | |
 | --- | --- |
 | umbrage | {said(options.umbrage, "--version")}, commit {said("git", "-C", cases.REPOSITORY, "rev-parse", "--short", "HEAD")}, {options.samples} light samples in each of two halves |
 | Mitsuba | {mi.__version__}, Dr.Jit {dr.__version__}, `{options.variant}`, {options.spp} independent samples a point |
 | Python | {platform.python_version()}, numpy {np.__version__} |
+| atrium | {fingerprint(options.atrium)} |
 | pictures | {options.size}, one point in the middle of each pixel |
-| command | `python tests/peers/compare.py atrium.obj{changed(options)}` |
+| command | `python tests/peers/compare.py{changed(options)}` |
 
-V is the unoccluded fraction of the light, E the irradiance from it, E0 the same with nothing
-between. *Ratio* is umbrage's mean over Mitsuba's, *bias* umbrage's less Mitsuba's, each with one
-standard error. *Expected* is what the RMSE would be from the noise of the samples alone, *excess* by
-how much the mean square is above that, in sigma. At "our points" Mitsuba looks at the light from
-umbrage's positions and normals, with rays lifted by 1e-6 of 1 + the largest coordinate; points where a surface crosses the way to the light within 1 cm are left
-out, and counted. Mitsuba's own lift, 8.9e-5 of the same, lets light in under nearby blockers: the
+V is the unoccluded fraction of the light, E the irradiance from it, E0 the same with nothing between.
+*Ratio* is umbrage's mean over Mitsuba's, *bias* umbrage's less Mitsuba's, each with one standard
+error. *Expected* is what the RMSE would be from the noise of the samples alone, *excess* by how many
+standard errors the mean square is above that.
+
+"At our points" Mitsuba looks at the light from umbrage's positions and normals, with rays lifted by
+1e-6 of 1 + the largest coordinate. Points where a surface crosses the way to the light within 1 cm are
+left out, and counted. Mitsuba's own lift, 8.9e-5 of the same, lets light in under nearby blockers: the
 rows with lifts show the size of that, with the same samples each time.
 
-In the pictures, V is above; below is umbrage's V less Mitsuba's, from blue (-{SCALE}) over white to
-red (+{SCALE}), yellow where a contact is left out. Noise is to be seen in penumbrae, and no shape."""
+In the pictures, V is above; below is umbrage's V less Mitsuba's, from blue (-{SCALE}) over white to red
+(+{SCALE}), yellow where a contact is left out. Noise is to be seen in penumbrae, and no shape."""
 
 
 def said(*command):
@@ -62,9 +66,15 @@ def said(*command):
     return done.stdout.strip() or "unknown"
 
 
+def fingerprint(path):
+    if path is None:
+        return "none given"
+    return f"{path.name}, SHA-256 {hashlib.sha256(path.read_bytes()).hexdigest()}"
+
+
 def changed(options):
-    words = []
-    if options.case:
+    words = [path.name for path in [options.atrium] if path]
+    if options.case != cases.NAMES:
         words += [f"--case {name}" for name in options.case]
     for name, usual in (("size", "480x270"), ("samples", 4096), ("spp", 512), ("points", 6)):
         if getattr(options, name) != usual:
@@ -79,10 +89,11 @@ def section(result):
 
 ![{case.name}]({case.name}.png)
 
-{result.triangles} triangles; {described(case.light)}. Of {result.pixels} pixels {result.hit} hit a surface in
-umbrage; Mitsuba's camera sees another surface or none at {result.other_surface} of them (further than
-1 mm apart). {result.contact} points have a contact. {result.penumbra} are in a penumbra. Umbrage's own
-variance of V is {result.noise_share:.4f} of Mitsuba's. Points by their difference in V: {apart}.
+{result.triangles} triangles; {described(case.light)}.
+Of {result.pixels} pixels {result.hit} hit a surface in umbrage; at {result.other_surface} of them
+Mitsuba's camera sees something else (more than 1 mm away). {result.penumbra} points are in a penumbra;
+{result.contact} have a contact. Umbrage's own variance of V is {result.noise_share:.4f} of Mitsuba's.
+Points by how far V is apart: {apart}.
 
 {table(result.rows)}
 

@@ -15,8 +15,9 @@ import numpy as np
 CHUNK = 32
 # A blocker nearer than this is a contact.
 CONTACT = 0.01
-# How far short of the point the search for contacts ends: ten times f32's rounding at 16 m.
-CONTACT_END = 1e-5
+# How far short of the point the search for contacts ends. Positions are f32: 1e-6 m off at 16 m, so
+# that a ray with a cosine of 1e-2 meets the point's own surface this far ahead.
+CONTACT_END = 1e-4
 # How far short of the light our own rays end, relative to its distance; nothing is that near a lamp.
 LIGHT_END = 1e-4
 

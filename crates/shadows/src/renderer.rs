@@ -113,6 +113,20 @@ impl<'a> Renderer<'a> {
         self.gpu.run(&recording)
     }
 
+    /// GPU times of a variant's frame, without its values; empty without timestamp queries.
+    ///
+    /// # Errors
+    /// As for frames.
+    pub fn time_frame(
+        &mut self,
+        variant: VariantId,
+        (view, light): (&View, &AreaLight),
+        (seeding, pattern): (Seeding, [u32; 2]),
+    ) -> Result<Vec<Timing>, ShadowError> {
+        let recording = self.recording(variant, (view, light), (seeding, pattern))?;
+        self.gpu.time(&recording)
+    }
+
     /// A variant at the anchors set before: its last pass is dispatched over them, all passes
     /// before it over the frame. `pattern` is frame and seed.
     ///

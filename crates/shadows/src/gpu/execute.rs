@@ -25,8 +25,18 @@ struct Run<'a> {
 }
 
 impl Gpu {
-    /// Executes all passes whose results are not there yet.
+    /// Executes all passes whose results are not there yet, and reads the values.
     pub(crate) fn run(&mut self, recording: &Recording) -> Result<Shaded, ShadowError> {
+        self.execute(recording, recording.passes.iter().any(writes_values))
+    }
+
+    /// Executes the same passes for their times alone: reading megabytes of values between frames
+    /// lets a GPU fall back to its idle clock.
+    pub(crate) fn time(&mut self, recording: &Recording) -> Result<Vec<Timing>, ShadowError> {
+        Ok(self.execute(recording, false)?.timings)
+    }
+
+    fn execute(&mut self, recording: &Recording, reads_values: bool) -> Result<Shaded, ShadowError> {
         let run = self.prepare(recording)?;
         let mut encoder =
             self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
@@ -44,7 +54,6 @@ impl Gpu {
             }
             timed.extend(slot.map(|_| (pass.label(), kept)));
         }
-        let reads_values = recording.passes.iter().any(writes_values);
         let values = reads_values.then(|| (&run.values, u64::from(recording.globals.receivers) * 4));
         let (floats, times) = self.submit_and_read(encoder, values, timed.len() as u32)?;
         self.textures.filled(recording);
