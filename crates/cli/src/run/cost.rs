@@ -4,6 +4,7 @@ use super::window::Window;
 use crate::error::CliError;
 use crate::suite::Plan;
 use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
 use umbrage_report::{Cost, PassCost};
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
@@ -16,8 +17,12 @@ pub(crate) struct CostOf {
     kept_ms: f64,
 }
 
-const WARM_UP: usize = 5;
-const REPEATS: usize = 30;
+const WARM_UP: usize = 10;
+const REPEATS: usize = 60;
+
+/// Scoring leaves a GPU idle for seconds, and an idle one runs at a fraction of its clock: measured
+/// on an H200, the same pass took 1.7 times as long right after.
+const WAKE_UP: Duration = Duration::from_secs(1);
 
 /// The camera's depth is every renderer's own: it is no part of a shadow's cost.
 const NOT_OURS: &str = "depth-prepass";
@@ -30,15 +35,22 @@ pub(super) fn measure_cost(
     plan: &Plan,
 ) -> Result<Vec<CostOf>, CliError> {
     let (view, light) = &window.frames[window.middle()];
+    let pattern = (Seeding::Frozen, [0, 0]);
+    let started = Instant::now();
+    while started.elapsed() < WAKE_UP {
+        for &variant in &plan.variants {
+            renderer.time_frame(variant, (view, light), pattern)?;
+        }
+    }
     let mut costs = Vec::new();
     for &variant in &plan.variants {
         renderer.forget();
         let mut cost = CostOf { variant: variant.name(), frames: vec![], passes: vec![], kept_ms: 0.0 };
         for repeat in 0..WARM_UP + REPEATS {
-            let shaded = renderer.shade_frame(variant, (view, light), (Seeding::Frozen, [0, 0]))?;
+            let timings = renderer.time_frame(variant, (view, light), pattern)?;
             cost.kept_ms +=
-                shaded.timings.iter().filter(|t| t.kept && t.label != NOT_OURS).map(|t| t.ms).sum::<f64>();
-            let ours: Vec<_> = shaded.timings.iter().filter(|t| !t.kept && t.label != NOT_OURS).collect();
+                timings.iter().filter(|t| t.kept && t.label != NOT_OURS).map(|t| t.ms).sum::<f64>();
+            let ours: Vec<_> = timings.iter().filter(|t| !t.kept && t.label != NOT_OURS).collect();
             if repeat >= WARM_UP && !ours.is_empty() {
                 cost.passes = ours.iter().map(|t| t.label).collect();
                 cost.frames.push(ours.iter().map(|t| t.ms).collect());
