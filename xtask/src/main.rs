@@ -1,4 +1,4 @@
-//! Automation: `cargo xtask evaluate | test | ci | layers | bless`.
+//! Automation: `cargo xtask evaluate | test | ci | layers | figures | bless`.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program that talks to people")]
 
 mod adapter;
@@ -14,6 +14,7 @@ const USAGE: &str = "cargo xtask COMMAND
   test             the same driver check, then all tests
   ci               formatting, lints, layers, duplicate versions, documentation, all tests
   layers           check the dependency invariants of ARCHITECTURE.md
+  figures          render the README's pictures again
   bless            renew committed goldens (the scorecard's schema)";
 
 fn main() -> ExitCode {
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
         Some("test") => steps::test(),
         Some("ci") => steps::ci(),
         Some("layers") => layers::check(),
+        Some("figures") => steps::figures(),
         Some("bless") => steps::bless(),
         _ => Err(format!("usage: {USAGE}")),
     };

@@ -46,6 +46,31 @@ pub(crate) fn evaluate(arguments: &[String]) -> Outcome {
     run_in(adapter::quiet(command.arg("evaluate").args(arguments)))
 }
 
+/// The README's pictures: where they come from in a run's folder, and what they are called.
+const FIGURES: [(&str, &str); 7] = [
+    ("window-00-truth.png", "truth.png"),
+    ("window-00-variant-00-shadow.png", "chss-mask-shadow.png"),
+    ("window-00-variant-00-error.png", "chss-mask-error.png"),
+    ("window-00-variant-00-swim.png", "chss-mask-swim.png"),
+    ("window-00-variant-01-shadow.png", "chss-min-shadow.png"),
+    ("window-00-variant-01-error.png", "chss-min-error.png"),
+    ("window-00-variant-01-swim.png", "chss-min-swim.png"),
+];
+
+/// Renders the README's pictures again.
+pub(crate) fn figures() -> Outcome {
+    let variants = ["--variant", "chss-mask/light-matched", "--variant", "chss-min/light-matched"];
+    let run =
+        ["colonnade", "--path", "P4", "--size", "480x270", "--report", "dir", "--out", "reports/out/figures"];
+    evaluate(&run.into_iter().chain(variants).map(str::to_string).collect::<Vec<_>>())?;
+    std::fs::create_dir_all("reports/figures").map_err(|e| format!("reports/figures: {e}"))?;
+    for (from, to) in FIGURES {
+        let (from, to) = (format!("reports/out/figures/index_files/{from}"), format!("reports/figures/{to}"));
+        std::fs::copy(&from, &to).map_err(|e| format!("{from}: {e}"))?;
+    }
+    Ok(())
+}
+
 /// All tests, documentation examples included.
 pub(crate) fn test() -> Outcome {
     run(&cargo(), &["build", "--workspace", "--bins"])?;

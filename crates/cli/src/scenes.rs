@@ -15,7 +15,11 @@ pub(crate) fn find_scene(what: &Path) -> Result<(Scene, Option<SceneFile>), CliE
         // A plain word: the error names the nearest standard scene.
         return Ok((Scene::builtin(&name)?, None));
     }
-    let (scene, mut file) = Scene::load_with_file(what)?;
+    // `scene.toml` alone is named after the folder that it lies in: that folder must be in the path.
+    let bare_name = what.exists() && what.parent().is_some_and(|p| p.as_os_str().is_empty());
+    let found =
+        if bare_name { std::path::absolute(what).map_err(CliError::file(what))? } else { what.to_owned() };
+    let (scene, mut file) = Scene::load_with_file(&found)?;
     let bare = what.is_file() && what.extension().is_none_or(|e| e != "toml");
     if bare {
         // The file is kept beside the report: it must find the model from there.
