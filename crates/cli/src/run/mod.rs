@@ -54,6 +54,8 @@ struct Run<'a> {
     progress: Progress,
     bootstrap: Bootstrap,
     windows_done: usize,
+    /// Hash of this very program.
+    program: String,
 }
 
 /// Runs a plan and stores the run; pages are made from it afterwards.
@@ -74,6 +76,7 @@ pub(crate) fn evaluate(
         progress: Progress::new(steps(plan)),
         bootstrap: Bootstrap::default(),
         windows_done: 0,
+        program: unit::program_hash(),
     };
     let (mut scored, mut costs) = (Vec::new(), Vec::new());
     for entry in &plan.jobs {
@@ -135,7 +138,7 @@ impl Run<'_> {
         }
         let tracer = Tracer::new(scene)?;
         let software = gpu.description().is_software();
-        let adapter_key = format!("{:?}", gpu.description());
+        let adapter_key = format!("{:?} {}", gpu.description(), self.program);
         let mut renderer = Renderer::new(gpu, scene, self.settings.map_texels)?;
         for name in &entry.paths {
             let path = scene.path(name)?;

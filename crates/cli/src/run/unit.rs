@@ -48,6 +48,13 @@ pub(super) fn key(
     Ok(hasher.finalize().to_hex().to_string())
 }
 
+/// Hash of the program itself: whatever else a result follows from (metrics, tile side, bootstrap)
+/// is in there, so that a rebuilt program never takes an older one's results for its own.
+pub(super) fn program_hash() -> String {
+    let bytes = std::env::current_exe().and_then(std::fs::read);
+    bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").into(), |b| blake3::hash(&b).to_hex().to_string())
+}
+
 impl Units {
     /// Opens the folder and clears away what killed runs left behind.
     pub(super) fn open(folder: &Path) -> Result<Self, CliError> {
