@@ -91,8 +91,9 @@ def run(name, options, folder):
 
     peer = Peer(case)
     size = [int(side) for side in options.size.split("x")]
-    seen = tuple(values[hit] for values in peer.hits(size))
-    same = seen[2] & (np.linalg.norm(seen[0] - points[0], axis=1) < SAME_PLACE)
+    through = peer.hits(size)
+    seen = [values[hit] for values in through]
+    other = seen[2] & (np.linalg.norm(seen[0] - points[0], axis=1) > SAME_PLACE)
     theirs = peer.estimate(*points, Settings(options.spp, LIFT, 1))
     through_camera = peer.estimate(*seen[:2], Settings(options.spp, LIFT, 2))
     keep = ~theirs["contact"]
@@ -112,7 +113,7 @@ def run(name, options, folder):
     difference = np.where(keep, ours - theirs["V"], np.nan)
     print(f"{name}: {time.time() - started:.0f} s", file=sys.stderr)
     return Result(
-        case, peer.triangles(), hit.size, len(keep), int((~same).sum()), int((~keep).sum()),
+        case, peer.triangles(), hit.size, len(keep), int((hit != through[2]).sum() + other.sum()), int((~keep).sum()),
         int(((ours > 0) & (ours < 1)).sum()), agreement.noise_share(),
         {level: int((apart > level).sum()) for level in (4, 5, 6)}, rows, witnesses,
         picture(ours, hit, size), picture(difference, hit, size),

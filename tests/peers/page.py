@@ -57,6 +57,9 @@ standard errors the mean square is above that.
 left out, and counted. Mitsuba's own lift, 8.9e-5 of the same, lets light in under nearby blockers: the
 rows with lifts show the size of that, with the same samples each time.
 
+Single points are apart by more sigmas than a normal distribution has, because V near 0 or 1 is a count
+of few samples; there, brute force says who is right.
+
 In the pictures, V is above; below is umbrage's V less Mitsuba's, from blue (-{SCALE}) over white to red
 (+{SCALE}), yellow where a contact is left out. Noise is to be seen in penumbrae, and no shape."""
 
@@ -90,14 +93,15 @@ def section(result):
 ![{case.name}]({case.name}.png)
 
 {result.triangles} triangles; {described(case.light)}.
-Of {result.pixels} pixels {result.hit} hit a surface in umbrage; at {result.other_surface} of them
-Mitsuba's camera sees something else (more than 1 mm away). {result.penumbra} points are in a penumbra;
-{result.contact} have a contact. Umbrage's own variance of V is {result.noise_share:.4f} of Mitsuba's.
+Of {result.pixels} pixels {result.hit} hit a surface in umbrage; at {result.other_surface} pixels
+Mitsuba's camera sees something else: another place (1 mm away or more), or only one sees anything.
+{result.penumbra} points are in a penumbra; {result.contact} have a contact.
+Umbrage's own variance of V is {result.noise_share:.4f} of Mitsuba's.
 Points by how far V is apart: {apart}.
 
 {table(result.rows)}
 
-Brute force (float64, every triangle, 4096 jittered samples) at single points:
+V by brute force (float64, every triangle, 4096 jittered samples) at single points:
 
 {witnesses(result.witnesses)}"""
 

@@ -83,12 +83,26 @@ pub(crate) fn with_interval(score: Score, power: Power) -> (String, Option<Strin
 pub(crate) fn free_score(score: Score) -> String {
     let power = Power::in_text(score.value.abs().max(half_width(score)));
     let label = power.label();
+    if hides_its_sign(score) {
+        let [value, low, high] = [score.value, score.low, score.high].map(|v| number(power.scaled(v)));
+        let ends = format!("{value} [{low} to {high}]");
+        return if label.is_empty() { ends } else { format!("{ends}×{label}") };
+    }
     match with_interval(score, power) {
         (value, None) if label.is_empty() => value,
         (value, Some(half)) if label.is_empty() => format!("{value} ± {half}"),
         (value, None) => format!("{value}×{label}"),
         (value, Some(half)) => format!("({value} ± {half})×{label}"),
     }
+}
+
+/// Whether a symmetric "±" would say the opposite of the interval about 0 (bootstrap intervals of
+/// small counts lean to one side).
+fn hides_its_sign(score: Score) -> bool {
+    let half = half_width(score);
+    let resolved = score.low > 0.0 || score.high < 0.0;
+    let looks_resolved = score.value - half > 0.0 || score.value + half < 0.0;
+    resolved != looks_resolved && half > 0.0 && score.value != 0.0
 }
 
 /// A change in percent, as one would say it: "9 %", "0.6 %".
@@ -165,6 +179,8 @@ mod tests {
         assert_eq!(free_score(score(4.2e-6, 3e-7)), "(4.20 ± 0.30)×10⁻⁶");
         assert_eq!(free_score(score(0.0429, 0.000_75)), "0.0429 ± 0.0008");
         assert_eq!(free_score(score(8.2e-7, 9.2e-7)), "(0.82 ± 0.92)×10⁻⁶");
+        let leaning = Score { value: -1.5e-4, low: -3.5e-4, high: -1e-5 };
+        assert_eq!(free_score(leaning), "−150 [−350 to −10.0]×10⁻⁶", "± 170 would say that it is unresolved");
         assert_eq!(free_number(0.000_012_3), "12.3×10⁻⁶");
         assert_eq!([7, 1234, 1_104_311].map(count), ["7", "1\u{202f}234", "1\u{202f}104\u{202f}311"]);
         assert_eq!([0.091, 0.0061, 0.0194].map(spoken_percent), ["9\u{a0}%", "0.6\u{a0}%", "1.9\u{a0}%"]);
