@@ -228,7 +228,7 @@ fn vogel(i: u32, count: u32, angle: f64) -> DVec2 {
 /// Listing 2, at a pixel centre, 0 to 1. In f32: its large factor is meant to amplify roundings.
 fn interleaved_gradient_noise(x: u32, y: u32) -> f64 {
     let inner = (x as f32 + 0.5) * 0.067_110_56 + (y as f32 + 0.5) * 0.005_837_15;
-    f64::from((52.982_918_9 * inner.fract()).fract())
+    f64::from((52.982_918 * inner.fract()).fract())
 }
 
 /// Between the centres of four texels, clamped at the border.
