@@ -180,7 +180,11 @@ mod tests {
         assert_eq!(free_score(score(0.0429, 0.000_75)), "0.0429 ± 0.0008");
         assert_eq!(free_score(score(8.2e-7, 9.2e-7)), "(0.82 ± 0.92)×10⁻⁶");
         let leaning = Score { value: -1.5e-4, low: -3.5e-4, high: -1e-5 };
-        assert_eq!(free_score(leaning), "−0.150 [−0.350 to −0.0100]×10⁻³", "± 170 would say that it is unresolved");
+        assert_eq!(
+            free_score(leaning),
+            "−0.150 [−0.350 to −0.0100]×10⁻³",
+            "± 170 would say that it is unresolved"
+        );
         assert_eq!(free_number(0.000_012_3), "12.3×10⁻⁶");
         assert_eq!([7, 1234, 1_104_311].map(count), ["7", "1\u{202f}234", "1\u{202f}104\u{202f}311"]);
         assert_eq!([0.091, 0.0061, 0.0194].map(spoken_percent), ["9\u{a0}%", "0.6\u{a0}%", "1.9\u{a0}%"]);

@@ -19,8 +19,12 @@ type Extras = BTreeMap<String, Measurement>;
 const PATTERN_FRAMES: usize = 4;
 const PATTERN_SEEDS: u32 = 2;
 
-/// From the anchored panel: tails, widths, levels, the colour of the noise.
-pub(super) fn of_panel(window: &Window, panel: &Panel, maps: &PointMaps) -> Result<Extras, CliError> {
+/// From the anchored panel: tails, widths, levels, the colour of the noise and its spectrum.
+pub(super) fn of_panel(
+    window: &Window,
+    panel: &Panel,
+    maps: &PointMaps,
+) -> Result<(Extras, Vec<f64>), CliError> {
     let bootstrap = Bootstrap::default();
     let tails = window_tails(maps, &window.tiling);
     let table = window_profiles(panel, &window.truth, &window.anchors, &window.tiling)?;
@@ -33,12 +37,15 @@ pub(super) fn of_panel(window: &Window, panel: &Panel, maps: &PointMaps) -> Resu
         ("effective_levels".to_string(), shape.effective_levels),
         ("plateau_fraction".to_string(), shape.plateau_fraction),
     ]);
-    let noise = match panel.seeds {
-        1 => Measurement::NotMeasured(Missing::NoNoise),
-        _ => grain(&[&window_grain(panel, &window.tiling)?], &bootstrap).after_blur,
+    let (noise, spectrum) = match panel.seeds {
+        1 => (Measurement::NotMeasured(Missing::NoNoise), Vec::new()),
+        _ => {
+            let grain = grain(&[&window_grain(panel, &window.tiling)?], &bootstrap);
+            (grain.after_blur, grain.spectrum)
+        }
     };
     extras.insert("noise_after_blur".into(), noise);
-    Ok(extras)
+    Ok((extras, spectrum))
 }
 
 /// From a frame as a game would show it, where it counts: FLIP of the shaded scene, SSIM of the

@@ -29,6 +29,8 @@ pub(crate) struct Numbers {
     pub(crate) pixels: Option<TileTable>,
     /// What explains the scores, by metric id.
     pub(crate) extras: BTreeMap<String, Measurement>,
+    /// Power of the noise over spatial frequency, white = 1; empty without noise.
+    pub(crate) noise_spectrum: Vec<f64>,
 }
 
 impl Measured {
@@ -56,7 +58,7 @@ pub(super) fn measure(
     let values = renderer.shade_frame(variant, (view, light), shipped)?.values;
     let (width, height) = window.size();
     let mask = Image::from_pixels(width, height, values);
-    let mut extras = extras::of_panel(window, &panel, &maps)?;
+    let (mut extras, noise_spectrum) = extras::of_panel(window, &panel, &maps)?;
     extras.extend(extras::of_picture(window, &mask));
     drop(panel);
     if variant.info().stochastic {
@@ -70,5 +72,5 @@ pub(super) fn measure(
         }
     };
     let pictures = pictures::variant(window, mask, &maps);
-    Ok(Measured { numbers: Numbers { anchored, pixels, extras }, pictures })
+    Ok(Measured { numbers: Numbers { anchored, pixels, extras, noise_spectrum }, pictures })
 }

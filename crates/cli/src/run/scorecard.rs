@@ -160,7 +160,9 @@ fn window_results(window: usize, entry: &Scored, bootstrap: &Bootstrap) -> Resul
         let mut scores = scores(&[&numbers.anchored], numbers.pixels.as_ref().map(|p| vec![p]), bootstrap)?;
         scores.extend(numbers.extras.iter().map(|(id, &m)| (id.clone(), Measured::from(m))));
         let per_frame_swimming = swimming_per_frame(&numbers.anchored, bootstrap)?;
-        results.push(ResultCard { window, variant, scores, per_frame_swimming, groups: BTreeMap::new() });
+        let noise_spectrum = numbers.noise_spectrum.clone();
+        let groups = BTreeMap::new();
+        results.push(ResultCard { window, variant, scores, per_frame_swimming, noise_spectrum, groups });
     }
     for quantity in COMPARED {
         let letters = letters(&[entry], quantity, bootstrap)?;

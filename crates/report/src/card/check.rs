@@ -65,6 +65,7 @@ impl Scorecard {
 impl ResultCard {
     fn check(&self, place: &str) -> Result<(), ReportError> {
         finite_scores(&self.scores, place)?;
+        self.noise_spectrum.iter().try_for_each(|&v| finite(v, place, "noise_spectrum"))?;
         self.per_frame_swimming.iter().try_for_each(|&s| finite_score(s, place, "per_frame_swimming"))
     }
 }

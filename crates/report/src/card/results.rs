@@ -20,6 +20,9 @@ pub struct ResultCard {
     #[serde(default)]
     #[schemars(with = "Vec<ScoreSchema>")]
     pub per_frame_swimming: Vec<Score>,
+    /// Power of the noise at 1/64, 3/64, ... 31/64 cycles per pixel, white = 1; empty without noise.
+    #[serde(default)]
+    pub noise_spectrum: Vec<f64>,
     /// By metric id: variants of this window that share a letter cannot be told apart.
     #[serde(default)]
     pub groups: BTreeMap<String, String>,

@@ -13,7 +13,7 @@ mod table;
 use crate::Scorecard;
 use crate::book::Book;
 use crate::picture::HATCH;
-use crate::plot::{pareto, per_frame};
+use crate::plot::{pareto, per_frame, spectrum};
 use crate::words::answer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -110,6 +110,13 @@ fn time(card: &Scorecard) -> Markup {
                 @match per_frame(card, index) {
                     Some(plot) => div.wide { (plot) },
                     None => p.empty { (why_no_series(card, index)) },
+                }
+                @if let Some(plot) = spectrum(card, index) {
+                    details {
+                        summary { "What the noise is like" }
+                        p.note { "A flat line is white noise. What falls to the left is blue: a filter, or the eye, removes it. What rises to the left is red: it looks like blotches." }
+                        div.wide { (plot) }
+                    }
                 }
             }
         }
