@@ -74,8 +74,8 @@ fn the_shape_of_the_scorecard_is_as_committed(card: &Card) {
     let lost = committed.lines().find(|line| !found.lines().any(|f| f == *line));
     assert!(
         differs.is_none() && lost.is_none(),
-        "the scorecard's shape has changed (new: {differs:?}, lost: {lost:?}); if that is meant, raise \
-         SCHEMA_VERSION and run UMBRAGE_BLESS=1 cargo test -p umbrage-tests --test program"
+        "the scorecard's shape has changed (new: {differs:?}, lost: {lost:?}); if that is meant, \
+         raise SCHEMA_VERSION unless a field was only added, and run UMBRAGE_BLESS=1 cargo test -p umbrage-tests --test program"
     );
 }
 
