@@ -15,7 +15,7 @@ const USAGE: &str = "cargo xtask COMMAND
   ci               formatting, lints, layers, duplicate versions, documentation, all tests
   layers           check the dependency invariants of ARCHITECTURE.md
   figures          render the README's pictures again
-  bless            renew committed goldens (the scorecard's schema)";
+  bless            renew committed goldens (the scorecard's schema and shape)";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

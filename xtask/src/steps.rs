@@ -109,6 +109,8 @@ fn single_versions() -> Outcome {
 
 /// Renews goldens; look at the difference before committing it.
 pub(crate) fn bless() -> Outcome {
+    run(&cargo(), &["build", "--package", "umbrage"])?;
+    let packages = ["--package", "umbrage-report", "--package", "umbrage-tests"];
     let mut command = Command::new(cargo());
-    run_in(command.args(["test", "--package", "umbrage-report"]).env("UMBRAGE_BLESS", "1"))
+    run_in(adapter::quiet(command.arg("test").args(packages).args(["scorecard"]).env("UMBRAGE_BLESS", "1")))
 }

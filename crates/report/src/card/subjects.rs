@@ -44,6 +44,14 @@ pub enum Calibration {
 }
 
 impl Calibration {
+    /// As in `scorecard.json` and in the program's arguments.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::AsPrinted => "as-printed",
+            Self::LightMatched => "light-matched",
+        }
+    }
+
     /// As printed on pages.
     pub fn label(self) -> &'static str {
         match self {

@@ -36,7 +36,7 @@ pub(crate) fn scores_csv(card: &Scorecard) -> String {
 
 fn subject(card: &Scorecard, variant: usize) -> Option<String> {
     let v = card.variants.get(variant)?;
-    Some(format!("{},{}", csv(&v.name), csv(v.calibration.label())))
+    Some(format!("{},{}", csv(&v.name), csv(v.calibration.id())))
 }
 
 fn rows(text: &mut String, card: &Scorecard, place: &str, scores: &BTreeMap<String, Measured>) {
