@@ -40,7 +40,7 @@ of 1, and of V at umbrage's points also a mean square that exceeds the expected 
 
 | | |
 | --- | --- |
-| umbrage | {said(options.umbrage, "--version")}, commit {said("git", "-C", cases.REPOSITORY, "rev-parse", "--short", "HEAD")}, {options.samples} light samples in each of two halves |
+| umbrage | {said(options.umbrage, "--version")}, checkout at {said("git", "-C", cases.REPOSITORY, "rev-parse", "--short", "HEAD")}, {options.samples} light samples in each of two halves |
 | Mitsuba | {mi.__version__}, Dr.Jit {dr.__version__}, `{options.variant}`, {options.spp} independent samples a point |
 | Python | {platform.python_version()}, numpy {np.__version__} |
 | atrium | {fingerprint(options.atrium)} |
