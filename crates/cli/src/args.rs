@@ -184,15 +184,30 @@ pub(crate) enum Listed {
     Adapters,
 }
 
-/// The largest texture of common adapters: refused here, before truth takes all memory for it.
+/// The largest texture of common adapters.
 const MAX_SIDE: u32 = 16_384;
+
+/// 7680 x 4320: a window of 16 frames and 4 seeds takes 256 bytes a pixel.
+const MAX_PIXELS: u64 = 7680 * 4320;
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, as in 1920x1080")?;
     let side = |s: &str| s.trim().parse::<u32>().map_err(|e| format!("\"{s}\" is no size: {e}"));
-    match (side(width)?, side(height)?) {
-        (0, _) | (_, 0) => Err("a picture has at least one pixel a side".into()),
-        (w, h) if w.max(h) > MAX_SIDE => Err(format!("a picture has at most {MAX_SIDE} pixels a side")),
-        size => Ok(size),
+    check_size((side(width)?, side(height)?))
+}
+
+/// A size that can be rendered: refused here, before truth takes all memory for it.
+pub(crate) fn check_size((width, height): (u32, u32)) -> Result<(u32, u32), String> {
+    if width == 0 || height == 0 {
+        return Err("a picture has at least one pixel a side".into());
+    }
+    if width.max(height) > MAX_SIDE {
+        return Err(format!("a picture has at most {MAX_SIDE} pixels a side"));
+    }
+    match u64::from(width) * u64::from(height) {
+        pixels if pixels > MAX_PIXELS => {
+            Err(format!("a picture has at most {MAX_PIXELS} pixels (8K), not {pixels}"))
+        }
+        _ => Ok((width, height)),
     }
 }

@@ -1,6 +1,6 @@
 //! What is evaluated: scenes with their paths, and how large and long.
 
-use crate::args::EvaluateArgs;
+use crate::args::{EvaluateArgs, check_size};
 use crate::error::CliError;
 use crate::scenes::find_scene;
 use serde::Deserialize;
@@ -68,7 +68,9 @@ impl Plan {
         let jobs = jobs_of(args, &file)?;
         let quick = args.quick;
         let frames = args.frames.unwrap_or(if quick { 8 } else { WINDOW });
-        let size = args.view.size.or(file.size.map(|[w, h]| (w, h)).filter(|_| !quick));
+        let own = file.size.map(|[w, h]| check_size((w, h))).transpose();
+        let own = own.map_err(|e| CliError::Usage(format!("the size of suite \"{}\": {e}", file.name)))?;
+        let size = args.view.size.or(own.filter(|_| !quick));
         Ok(Self {
             name: if quick { format!("{}-quick", file.name) } else { file.name },
             jobs,
@@ -76,9 +78,9 @@ impl Plan {
             size: size.unwrap_or(if quick { (192, 108) } else { (320, 180) }),
             frames,
             window: frames.min(WINDOW),
-            seeds: args.seeds.unwrap_or(if quick { 2 } else { 4 }),
+            seeds: args.seeds.unwrap_or(4),
             samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
-            basis_samples: if quick { 256 } else { 1024 },
+            basis_samples: 1024,
         })
     }
 }
@@ -126,7 +128,13 @@ fn parse(text: &str, path: &Path) -> Result<SuiteFile, CliError> {
 }
 
 fn jobs_of(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<Job>, CliError> {
-    let mut jobs = Vec::new();
+    for wanted in &args.scenes {
+        let names = || file.scene.iter().map(|s| s.name.to_str().unwrap_or_default());
+        if !names().any(|n| n == wanted) && !file.scene.iter().any(|s| s.name.exists()) {
+            return Err(no_such_scene(file, wanted));
+        }
+    }
+    let mut jobs: Vec<Job> = Vec::new();
     let quick_scene =
         |s: &&SuiteScene| !args.quick || !args.what.is_empty() || s.name == Path::new("colonnade");
     for entry in file.scene.iter().filter(quick_scene) {
@@ -136,20 +144,35 @@ fn jobs_of(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<Job>, CliError> 
         }
         let wanted = if args.view.paths.is_empty() { &entry.paths } else { &args.view.paths };
         let all = || scene.paths.iter().map(|p| p.name.clone()).collect();
-        let paths: Vec<String> = if wanted.is_empty() { all() } else { wanted.clone() };
-        for path in &paths {
-            scene.path(path)?;
+        let mut paths: Vec<String> = Vec::new();
+        for path in if wanted.is_empty() { all() } else { wanted.clone() } {
+            scene.path(&path)?;
+            // Twice the same window would count as two independent ones.
+            if !paths.contains(&path) {
+                paths.push(path);
+            }
+        }
+        if jobs.iter().any(|j| j.scene.content_hash() == scene.content_hash() && j.paths == paths) {
+            continue;
         }
         jobs.push(Job { scene, paths, made_file });
     }
-    if jobs.is_empty() {
-        let names = file.scene.iter().map(|s| s.name.display().to_string()).collect::<Vec<_>>().join(", ");
-        return Err(CliError::Usage(format!(
-            "the suite \"{}\" has no such scene; it has {names}",
-            file.name
-        )));
+    match (jobs.is_empty(), args.scenes.first()) {
+        (false, _) => Ok(jobs),
+        (true, Some(wanted)) => Err(no_such_scene(file, wanted)),
+        (true, None) => Err(CliError::Usage(format!("the suite \"{}\" names no scene", file.name))),
     }
-    Ok(jobs)
+}
+
+fn no_such_scene(file: &SuiteFile, wanted: &str) -> CliError {
+    let names: Vec<&str> = file.scene.iter().filter_map(|s| s.name.to_str()).collect();
+    let hint =
+        suggest(wanted, names.iter().copied()).map(|s| format!("did you mean \"{s}\"? ")).unwrap_or_default();
+    CliError::Usage(format!(
+        "the suite \"{}\" has no scene \"{wanted}\"; {hint}it has {}",
+        file.name,
+        names.join(", ")
+    ))
 }
 
 /// The variants of the names given, in display order; all without names.

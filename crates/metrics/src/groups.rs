@@ -6,7 +6,7 @@
 
 use crate::interval::{CONFIDENCE, Estimate};
 use crate::paired::paired_estimate;
-use crate::{Bootstrap, MetricsError, Quantity, TileTable};
+use crate::{Bootstrap, MetricsError, Quantity, Score, TileTable};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Letters of each variant, in the order given; two variants that share a letter cannot be told
@@ -19,26 +19,52 @@ pub fn group_letters(
     what: Quantity,
     bootstrap: &Bootstrap,
 ) -> Result<Vec<String>, MetricsError> {
+    Ok(compare_all(variants, what, bootstrap)?.letters)
+}
+
+/// All pairs of a table: their differences, which of them are real, and the letters that follow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparisons {
+    /// As [`group_letters`] gives them.
+    pub letters: Vec<String>,
+    /// First and second variant, first minus second, and whether they can be told apart after
+    /// Holm's correction: the same decision that the letters show.
+    pub pairs: Vec<(usize, usize, Score, bool)>,
+}
+
+/// Compares every two variants in one quantity.
+///
+/// # Errors
+/// As [`group_letters`].
+pub fn compare_all(
+    variants: &[Vec<&TileTable>],
+    what: Quantity,
+    bootstrap: &Bootstrap,
+) -> Result<Comparisons, MetricsError> {
     let measured: Vec<usize> =
         (0..variants.len()).filter(|&v| what.missing(&variants[v]).is_none()).collect();
-    let mut tests = Vec::new();
+    let (mut tests, mut differences) = (Vec::new(), Vec::new());
     // Values relative to the first: enough to rank by.
     let mut rank = vec![0.0; measured.len()];
     for (i, &a) in measured.iter().enumerate() {
         for (j, &b) in measured.iter().enumerate().skip(i + 1) {
             if let Ok(estimate) = paired_estimate(&variants[a], &variants[b], what, bootstrap)? {
                 tests.push((p_value(&estimate), i, j));
+                differences.push((i, j, estimate.score));
                 if i == 0 {
                     rank[j] = -estimate.score.value;
                 }
             }
         }
     }
-    let groups = letter_groups(measured.len(), &holm(tests));
-    let letters = letters(&rank, groups);
+    let different = holm(tests);
+    let real = |i, j| different.contains(&(i, j));
+    let pairs = differences.into_iter().map(|(i, j, score)| (measured[i], measured[j], score, real(i, j)));
+    let pairs = pairs.collect();
+    let letters = letters(&rank, letter_groups(measured.len(), &different));
     let mut all = vec![String::new(); variants.len()];
     measured.into_iter().zip(letters).for_each(|(variant, letters)| all[variant] = letters);
-    Ok(all)
+    Ok(Comparisons { letters: all, pairs })
 }
 
 /// Two-sided, for "the difference is 0".

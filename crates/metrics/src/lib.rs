@@ -38,7 +38,7 @@ pub use error::MetricsError;
 pub use estimator::Parts;
 pub use flip::{PictureScore, Viewing, flip};
 pub use grain::{Grain, GrainTable, grain, window_grain};
-pub use groups::group_letters;
+pub use groups::{Comparisons, compare_all, group_letters};
 pub use maps::{PointMaps, point_maps};
 pub use paired::{edge_crawl, paired};
 pub use panel::{Panel, PanelTruth};

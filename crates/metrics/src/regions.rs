@@ -93,7 +93,11 @@ pub struct Coverage {
     pub counted: usize,
     /// Anchors inside the picture, summed over the frames.
     pub inside: usize,
-    /// Of those, the ones where truth and raster see different surfaces.
+    /// Of those, the ones hidden behind another surface: parallax, not disagreement.
+    pub hidden: usize,
+    /// Surfaces that truth's own camera rays hit, summed over the frames.
+    pub seen: usize,
+    /// Of those, the ones where the raster pipeline sees another surface in the same frame.
     pub disagreeing: usize,
 }
 
@@ -103,14 +107,26 @@ impl Coverage {
         self.counted as f64 / self.facing.max(1) as f64
     }
 
-    /// Disagreeing anchors over the anchors inside the picture, over all frames, 0 to 1.
+    /// Counted anchors over the pixels of the picture, 0 to 1.
+    pub fn picture(&self) -> f64 {
+        self.counted as f64 / self.pixels.max(1) as f64
+    }
+
+    /// Hidden anchors over the anchors inside the picture, over all frames, 0 to 1.
+    pub fn occlusion(&self) -> f64 {
+        self.hidden as f64 / self.inside.max(1) as f64
+    }
+
+    /// Where the two witnesses see different surfaces in one and the same frame, over what truth
+    /// sees, 0 to 1: silhouettes, or a wrong matrix.
     pub fn disagreement(&self) -> f64 {
-        self.disagreeing as f64 / self.inside.max(1) as f64
+        self.disagreeing as f64 / self.seen.max(1) as f64
     }
 }
 
 /// Which anchors count (they face the light, and every frame's raster sees the same surface), and
-/// how many were lost to what.
+/// how many were lost to what. `agreements` are those of the anchors, `witnesses` those of each
+/// frame's own camera rays, with the same frame's raster.
 ///
 /// # Errors
 /// Inputs that are not about the same anchors.
@@ -118,6 +134,7 @@ pub fn counted(
     anchors: &Anchors,
     facing: &[bool],
     agreements: &[Agreement],
+    witnesses: &[Agreement],
 ) -> Result<(Vec<bool>, Coverage), MetricsError> {
     expect_length("anchors that face the light", anchors.len(), facing.len())?;
     let mut counts = facing.to_vec();
@@ -127,13 +144,15 @@ pub fn counted(
         facing: facing.iter().filter(|&&f| f).count(),
         counted: 0,
         inside: 0,
-        disagreeing: 0,
+        hidden: 0,
+        seen: witnesses.iter().map(|w| w.same.len()).sum(),
+        disagreeing: witnesses.iter().map(|w| w.other_surface).sum(),
     };
     for agreement in agreements {
         expect_length("anchors of an agreement", anchors.len(), agreement.same.len())?;
         counts.iter_mut().zip(&agreement.same).for_each(|(count, &same)| *count &= same);
         coverage.inside += anchors.len() - agreement.outside;
-        coverage.disagreeing += agreement.other_surface;
+        coverage.hidden += agreement.other_surface;
     }
     coverage.counted = counts.iter().filter(|&&c| c).count();
     Ok((counts, coverage))

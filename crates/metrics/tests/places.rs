@@ -162,11 +162,14 @@ fn an_anchor_counts_when_every_frame_agrees() {
     let agreement =
         |same: [bool; 4], outside, other_surface| Agreement { same: same.to_vec(), outside, other_surface };
     let agreements = [agreement([true, true, false, true], 0, 1), agreement([true, true, true, false], 1, 0)];
+    let witnesses = [agreement([true; 4], 0, 0), agreement([true, true, true, false], 0, 1)];
     let (counts, coverage) =
-        counted(&picture.anchors(), &[true, false, true, true], &agreements).expect("counts");
+        counted(&picture.anchors(), &[true, false, true, true], &agreements, &witnesses).expect("counts");
     assert_eq!(counts, [true, false, false, false]);
     assert_eq!((coverage.pixels, coverage.facing, coverage.counted), (4, 3, 1));
     assert!((coverage.share() - 1.0 / 3.0).abs() < 1e-15);
-    assert!((coverage.disagreement() - 1.0 / 7.0).abs() < 1e-15, "one of 4 + 3 anchors inside");
-    assert!(counted(&picture.anchors(), &[true], &agreements).is_err());
+    assert!((coverage.picture() - 1.0 / 4.0).abs() < 1e-15);
+    assert!((coverage.occlusion() - 1.0 / 7.0).abs() < 1e-15, "one of 4 + 3 anchors inside");
+    assert!((coverage.disagreement() - 1.0 / 8.0).abs() < 1e-15, "one of the 4 + 4 that truth sees");
+    assert!(counted(&picture.anchors(), &[true], &agreements, &witnesses).is_err());
 }

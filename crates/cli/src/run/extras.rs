@@ -6,8 +6,8 @@ use crate::error::CliError;
 use std::collections::BTreeMap;
 use umbrage_frame::Image;
 use umbrage_metrics::{
-    Bootstrap, Measurement, Missing, Panel, PointMaps, Tail, Viewing, flip, grain, percentile, profiles,
-    ssim, window_grain, window_profiles, window_tails,
+    Bootstrap, Measurement, Missing, Panel, PointMaps, Score, Tail, TileTable, Viewing, flip, grain,
+    percentile, profiles, ssim, window_grain, window_profiles, window_tails, worst_tile,
 };
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
@@ -32,6 +32,8 @@ pub(super) fn of_panel(
     let mut extras = BTreeMap::from([
         ("p95".to_string(), percentile(&[&tails], Tail::Error, 0.95, &bootstrap)),
         ("p99".to_string(), percentile(&[&tails], Tail::Error, 0.99, &bootstrap)),
+        ("light_leak_p99".to_string(), percentile(&[&tails], Tail::LightLeak, 0.99, &bootstrap)),
+        ("false_shadow_p99".to_string(), percentile(&[&tails], Tail::FalseShadow, 0.99, &bootstrap)),
         ("width_ratio".to_string(), shape.width_ratio),
         ("width_anisotropy".to_string(), shape.width_anisotropy),
         ("effective_levels".to_string(), shape.effective_levels),
@@ -46,6 +48,13 @@ pub(super) fn of_panel(
     };
     extras.insert("noise_after_blur".into(), noise);
     Ok((extras, spectrum))
+}
+
+/// The tile with the largest ERROR.
+pub(super) fn worst(table: &TileTable) -> Result<Measurement, CliError> {
+    let worst = worst_tile(&[table])?;
+    let score = worst.map(|tile| Measurement::Measured(Score::exact(tile.error)));
+    Ok(score.unwrap_or(Measurement::NotMeasured(Missing::NoPenumbra)))
 }
 
 /// From a frame as a game would show it, where it counts: FLIP of the shaded scene, SSIM of the

@@ -60,6 +60,7 @@ pub(super) fn measure(
     let mask = Image::from_pixels(width, height, values);
     let (mut extras, noise_spectrum) = extras::of_panel(window, &panel, &maps)?;
     extras.extend(extras::of_picture(window, &mask));
+    extras.insert("worst_tile".into(), extras::worst(&anchored)?);
     drop(panel);
     if variant.info().stochastic {
         extras.extend(extras::of_patterns(window, (variant, renderer))?);

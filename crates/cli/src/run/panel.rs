@@ -44,7 +44,9 @@ pub(super) fn shade_panel(
             Reading::FixedPixels => Some(window.anchors.pixel.iter().map(|&p| Some(p)).collect()),
         };
         for seed in 0..draw.seeds {
-            let pattern = (draw.seeding, [window.first + frame as u32, seed]);
+            // Scores draw afresh in each window; a pattern as it ships has seed 0.
+            let salt = if draw.seeding == Seeding::Fresh { window.salt() } else { 0 };
+            let pattern = (draw.seeding, [window.first + frame as u32, salt.wrapping_add(seed)]);
             match &pixels {
                 None => values.extend(renderer.shade_anchors(variant, (view, light), pattern)?.values),
                 Some(pixels) => {

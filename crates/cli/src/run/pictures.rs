@@ -24,6 +24,8 @@ pub(super) fn variant(window: &Window, mask: Image<f32>, maps: &PointMaps) -> Va
     // One frame does not move.
     let moves = window.frames.len() > 1;
     let swim = moves.then(|| window.spread(|point| only_counted(point, maps.swim[point]), f32::NAN));
+    // Where nothing is seen there is no shadow to show.
+    let mask = window.spread(|point| mask.pixels()[pixel(point)], f32::NAN);
     VariantPictures { mask, error, swim }
 }
 

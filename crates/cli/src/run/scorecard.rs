@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::suite::Plan;
 use std::collections::BTreeMap;
 use umbrage_metrics::{
-    Bootstrap, METRICS, Measurement, Quantity, TILE_PX, TileTable, cells, edge_crawl, group_letters, paired,
+    Bootstrap, Comparisons, METRICS, Quantity, Score, TILE_PX, TileTable, cells, compare_all, edge_crawl,
     swimming_per_frame,
 };
 use umbrage_report::{
@@ -17,8 +17,7 @@ use umbrage_scene::{AreaLight, Scene};
 use umbrage_shadows::{ConstantBias, Gpu, LightKind, LightMap, ReceiverPlane, VariantId};
 
 /// Metrics whose groups and pairs are shown.
-const COMPARED: [Quantity; 5] =
-    [Quantity::Error, Quantity::Mse, Quantity::Banding, Quantity::Swimming, Quantity::Noise];
+const COMPARED: [Quantity; 4] = [Quantity::Error, Quantity::Banding, Quantity::Swimming, Quantity::Noise];
 
 /// Everything, in the report's words.
 pub(super) fn assemble(
@@ -27,7 +26,7 @@ pub(super) fn assemble(
     (gpu, scored, costs): (&Gpu, &[Scored], &[CostOf]),
     bootstrap: &Bootstrap,
 ) -> Result<Scorecard, CliError> {
-    let usable: Vec<&Scored> = scored.iter().filter(|s| s.window.tiles > 0).collect();
+    let usable = comparable(scored);
     let mut card = Scorecard {
         schema_version: SCHEMA_VERSION,
         provenance: provenance(plan, settings, gpu),
@@ -39,14 +38,65 @@ pub(super) fn assemble(
         paired: Vec::new(),
     };
     for (index, entry) in scored.iter().enumerate() {
-        let results = window_results(index, entry, bootstrap)?;
-        card.windows.push(window_card(entry, &results));
+        let comparisons = compare(&[entry], bootstrap)?;
+        let mut results = window_results(index, entry, bootstrap)?;
+        for (result, groups) in results.iter_mut().zip(groups(&comparisons, entry.variants.len())) {
+            result.groups = groups;
+        }
+        let mut window = window_card(entry, &results);
+        if !usable.iter().any(|u| std::ptr::eq(*u, entry)) && !entry.variants.is_empty() {
+            window.notes.push("not part of the pooled scores: too few frames, or nothing counted".into());
+        }
+        card.windows.push(window);
         card.results.extend(results);
-        card.paired.extend(pairs(&[entry], Some(index), bootstrap)?);
+        card.paired.extend(pairs(&comparisons, Some(index)));
     }
+    let comparisons = compare(&usable, bootstrap)?;
     card.overall = overall(plan, (&usable, costs, gpu), bootstrap)?;
-    card.paired.extend(pairs(&usable, None, bootstrap)?);
+    for (overall, groups) in card.overall.iter_mut().zip(groups(&comparisons, plan.variants.len())) {
+        overall.groups = groups;
+    }
+    card.paired.extend(pairs(&comparisons, None));
     Ok(card)
+}
+
+/// Windows that can be pooled: scored, and of one T (the largest), for M grows with T.
+fn comparable(scored: &[Scored]) -> Vec<&Scored> {
+    let has_scores = |s: &&Scored| !s.variants.is_empty() && s.window.coverage.counted > 0;
+    let frames = scored.iter().filter(has_scores).map(|s| s.window.frames).max();
+    scored.iter().filter(has_scores).filter(|s| Some(s.window.frames) == frames).collect()
+}
+
+/// Every two variants in each compared quantity.
+fn compare(scored: &[&Scored], bootstrap: &Bootstrap) -> Result<Vec<(Quantity, Comparisons)>, CliError> {
+    let tables = tables(scored);
+    if tables.is_empty() {
+        return Ok(Vec::new());
+    }
+    let all = |quantity| Ok((quantity, compare_all(&tables, quantity, bootstrap)?));
+    COMPARED.into_iter().map(all).collect()
+}
+
+/// The letters of each variant, by metric id.
+fn groups(comparisons: &[(Quantity, Comparisons)], variants: usize) -> Vec<BTreeMap<String, String>> {
+    let of = |variant: usize| {
+        let letters = comparisons.iter().map(|(q, c)| (q.id().to_string(), c.letters[variant].clone()));
+        letters.collect()
+    };
+    (0..variants).map(of).collect()
+}
+
+/// Paired differences between every two variants.
+fn pairs(comparisons: &[(Quantity, Comparisons)], window: Option<usize>) -> Vec<PairedCard> {
+    let card = |quantity: Quantity, &(a, b, difference, resolved): &(usize, usize, Score, bool)| PairedCard {
+        a,
+        b,
+        window,
+        metric: quantity.id().into(),
+        difference,
+        resolved,
+    };
+    comparisons.iter().flat_map(|(q, c)| c.pairs.iter().map(move |pair| card(*q, pair))).collect()
 }
 
 fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provenance {
@@ -164,12 +214,6 @@ fn window_results(window: usize, entry: &Scored, bootstrap: &Bootstrap) -> Resul
         let groups = BTreeMap::new();
         results.push(ResultCard { window, variant, scores, per_frame_swimming, noise_spectrum, groups });
     }
-    for quantity in COMPARED {
-        let letters = letters(&[entry], quantity, bootstrap)?;
-        for (result, letter) in results.iter_mut().zip(letters) {
-            result.groups.insert(quantity.id().into(), letter);
-        }
-    }
     Ok(results)
 }
 
@@ -194,41 +238,6 @@ fn scores(
 fn tables<'a>(scored: &[&'a Scored]) -> Vec<Vec<&'a TileTable>> {
     let variants = scored.first().map_or(0, |s| s.variants.len());
     (0..variants).map(|v| scored.iter().map(|s| &s.variants[v].numbers.anchored).collect()).collect()
-}
-
-fn letters(scored: &[&Scored], quantity: Quantity, bootstrap: &Bootstrap) -> Result<Vec<String>, CliError> {
-    let tables = tables(scored);
-    Ok(group_letters(&tables, quantity, bootstrap)?)
-}
-
-/// Paired differences between every two variants.
-fn pairs(
-    scored: &[&Scored],
-    window: Option<usize>,
-    bootstrap: &Bootstrap,
-) -> Result<Vec<PairedCard>, CliError> {
-    let tables = tables(scored);
-    let mut cards = Vec::new();
-    for a in 0..tables.len() {
-        for b in a + 1..tables.len() {
-            for quantity in COMPARED {
-                if let Measurement::Measured(difference) =
-                    paired(&tables[a], &tables[b], quantity, bootstrap)?
-                {
-                    let resolved = !difference.contains(0.0);
-                    cards.push(PairedCard {
-                        a,
-                        b,
-                        window,
-                        metric: quantity.id().into(),
-                        difference,
-                        resolved,
-                    });
-                }
-            }
-        }
-    }
-    Ok(cards)
 }
 
 fn window_card(entry: &Scored, results: &[ResultCard]) -> WindowCard {
@@ -269,34 +278,23 @@ fn overall(
         scores.extend(mean_extras(usable, index));
         cards.push(OverallCard { variant: index, scores, groups: BTreeMap::new(), cost, cost_note: note });
     }
-    for quantity in COMPARED {
-        for (card, letter) in cards.iter_mut().zip(letters(usable, quantity, bootstrap)?) {
-            card.groups.insert(quantity.id().into(), letter);
-        }
-    }
     Ok(cards)
 }
 
 /// What explains the scores, averaged over the windows that have it; intervals of independent
 /// windows add in quadrature.
 fn mean_extras(usable: &[&Scored], variant: usize) -> BTreeMap<String, Measured> {
-    let mut found: BTreeMap<&str, Vec<umbrage_metrics::Score>> = BTreeMap::new();
+    let mut found: BTreeMap<&str, Vec<Score>> = BTreeMap::new();
     for (id, measurement) in usable.iter().flat_map(|s| &s.variants[variant].numbers.extras) {
         found.entry(id).or_default().extend(measurement.score());
     }
-    let mean = |scores: &[umbrage_metrics::Score]| {
+    let mean = |scores: &[Score]| {
         let n = scores.len() as f64;
         let value = scores.iter().map(|s| s.value).sum::<f64>() / n;
-        let half = |side: fn(&umbrage_metrics::Score) -> f64| {
-            scores.iter().map(|s| side(s).powi(2)).sum::<f64>().sqrt() / n
-        };
-        umbrage_metrics::Score {
-            value,
-            low: value - half(|s| s.value - s.low),
-            high: value + half(|s| s.high - s.value),
-        }
+        let half = |side: fn(&Score) -> f64| scores.iter().map(|s| side(s).powi(2)).sum::<f64>().sqrt() / n;
+        Score { value, low: value - half(|s| s.value - s.low), high: value + half(|s| s.high - s.value) }
     };
-    let card = |(id, scores): (&str, Vec<umbrage_metrics::Score>)| {
+    let card = |(id, scores): (&str, Vec<Score>)| {
         let measured =
             if scores.is_empty() { Measured::no("in no window") } else { Measured::Score(mean(&scores)) };
         (id.to_string(), measured)

@@ -9,7 +9,7 @@ use umbrage_frame::{AgreementLimits, Anchors, Image, View};
 use umbrage_metrics::{Coverage, PanelTruth, Region, TILE_PX, Tiling, counted};
 use umbrage_reference::{Cache, GroundTruth, Method, Points, PrimaryHits, Source, Tracer, TruthSettings};
 use umbrage_scene::{AreaLight, CameraPath, PathFrame, Scene};
-use umbrage_shadows::Renderer;
+use umbrage_shadows::{LightMap, Renderer};
 
 /// What a window is made from.
 pub(super) struct Request<'a> {
@@ -78,17 +78,25 @@ impl Window {
         let anchors = Anchors::of(&hits.gbuffer);
         let mut truths = Truths { tracer, cache, computed: false, notes: Vec::new(), key: String::new() };
         let (truth, facing) = truths.at_anchors(&hits.points(), &frames, plan)?;
-        let mut agreements = Vec::with_capacity(frames.len());
-        for (view, light) in &frames {
-            agreements.push(anchors.agreement(&renderer.gbuffer(view, light)?, AgreementLimits::default()));
+        let (mut agreements, mut witnesses) = (Vec::new(), Vec::new());
+        for (index, (view, light)) in frames.iter().enumerate() {
+            let raster = renderer.gbuffer(view, light)?;
+            let limits = AgreementLimits::default();
+            agreements.push(anchors.agreement(&raster, limits));
+            // What truth itself sees in this very frame; the middle one has been traced.
+            witnesses.push(match index == frames.len() / 2 {
+                true => anchors.agreement(&raster, limits),
+                false => Anchors::of(&tracer.primary(view).gbuffer).agreement(&raster, limits),
+            });
         }
-        let (counts, coverage) = counted(&anchors, &facing, &agreements)?;
+        let (counts, coverage) = counted(&anchors, &facing, &agreements, &witnesses)?;
         let tiling = Tiling::new(&anchors, &truth, &counts, TILE_PX)?;
         let pixel_truth = match frames.len() {
             1 => None,
             _ => Some(truths.at_pixels(&frames, (&anchors, &truth, &tiling))?),
         };
-        let Truths { computed, notes, key, .. } = truths;
+        let Truths { computed, mut notes, key, .. } = truths;
+        notes.extend(outside_map_note(&anchors, &renderer.light_map(&middle_light)));
         Ok(Self {
             scene: request.scene.name.clone(),
             path: request.path.name.clone(),
@@ -104,6 +112,18 @@ impl Window {
             truth_secs: computed.then(|| started.elapsed().as_secs_f64()),
             notes,
         })
+    }
+
+    /// Share of surfaces on which truth and raster disagree in one and the same frame.
+    pub(super) fn disagreement(&self) -> f64 {
+        self.coverage.disagreement()
+    }
+
+    /// Keeps the patterns of this window apart from those of others: windows are resampled as
+    /// independent.
+    pub(super) fn salt(&self) -> u32 {
+        let name = format!("{}/{}", self.scene, self.path);
+        name.bytes().fold(0x811c_9dc5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
     }
 
     /// Index of the middle frame.
@@ -274,6 +294,23 @@ impl Truths<'_> {
         let (basis, variance) = (truth.basis.clone(), truth.variance.clone());
         Ok(PanelTruth { frames: frames.len(), halves, basis, variance })
     }
+}
+
+/// Most of the anchors that may lie outside the shadow map, where everything is lit, without a word.
+const OUTSIDE_LIMIT: f64 = 0.05;
+
+fn outside_map_note(anchors: &Anchors, map: &LightMap) -> Option<String> {
+    let inside = |p: &&Vec3| {
+        let clip = map.clip_from_world * p.extend(1.0);
+        clip.w > 0.0 && clip.x.abs().max(clip.y.abs()) <= clip.w
+    };
+    let outside = 1.0 - anchors.position.iter().filter(inside).count() as f64 / anchors.len().max(1) as f64;
+    (outside > OUTSIDE_LIMIT && !anchors.is_empty()).then(|| {
+        format!(
+            "{:.0} % of the points lie outside the shadow map, where variants are lit: see shadow_region",
+            100.0 * outside
+        )
+    })
 }
 
 /// Reflectance times the cosine to the light's centre, per pixel; a dim grey where nothing is seen.

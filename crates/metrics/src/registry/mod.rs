@@ -53,6 +53,8 @@ pub static METRICS: &[MetricInfo] = &[
     cells::STRUCTURED_MOVING,
     regions::LIGHT_LEAK,
     regions::FALSE_SHADOW,
+    regions::LIGHT_LEAK_P99,
+    regions::FALSE_SHADOW_P99,
     explain::WIDTH_RATIO,
     explain::WIDTH_ANISOTROPY,
     explain::EFFECTIVE_LEVELS,

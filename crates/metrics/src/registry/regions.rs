@@ -29,6 +29,30 @@ pub(super) const FALSE_SHADOW: MetricInfo = MetricInfo {
     blind_spot: "A mean: a patch of acne in a large lit floor hides; see p99 and the worst tile.",
 };
 
+pub(super) const LIGHT_LEAK_P99: MetricInfo = MetricInfo {
+    id: "light_leak_p99",
+    name: "Light leak, 99th percentile",
+    unit: "visibility",
+    range: SHARE,
+    direction: LowerIsBetter,
+    definition: "One umbra point in a hundred is lighter than this.",
+    formula: "99th percentile over umbra points of the mean of v over frames and seeds",
+    source: UMBRAGE,
+    blind_spot: "A leak smaller than a hundredth of the umbra.",
+};
+
+pub(super) const FALSE_SHADOW_P99: MetricInfo = MetricInfo {
+    id: "false_shadow_p99",
+    name: "False shadow, 99th percentile",
+    unit: "visibility",
+    range: SHARE,
+    direction: LowerIsBetter,
+    definition: "One lit point in a hundred is darker than this.",
+    formula: "99th percentile over lit points of the mean of 1 - v over frames and seeds",
+    source: UMBRAGE,
+    blind_spot: "A patch smaller than a hundredth of the lit region.",
+};
+
 pub(super) const P95: MetricInfo = MetricInfo {
     id: "p95",
     name: "Error, 95th percentile",
