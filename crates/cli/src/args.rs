@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use umbrage_shadows::{Bias, ConstantBias, ReceiverPlane};
 
 /// Scores real-time soft shadows against path-traced truth: error, banding, noise and swimming.
 #[derive(Parser, Debug)]
@@ -79,6 +80,10 @@ pub(crate) struct EvaluateArgs {
     /// Print the scorecard to standard output, and nothing else there.
     #[arg(long)]
     pub(crate) json: bool,
+    /// Bias of all variants: metres, texels of normal offset, and the steepest receiver plane that is
+    /// followed (or `off`), as in `0.001,0.5,5`.
+    #[arg(long, value_name = "M,TEXELS,SLOPE", value_parser = parse_bias)]
+    pub(crate) bias: Option<Bias>,
     /// Also write each variant's frames as EXR under the run.
     #[arg(long)]
     pub(crate) keep_frames: bool,
@@ -189,6 +194,21 @@ const MAX_SIDE: u32 = 16_384;
 
 /// 7680 x 4320: a window of 16 frames and 4 seeds takes 256 bytes a pixel.
 const MAX_PIXELS: u64 = 7680 * 4320;
+
+fn parse_bias(text: &str) -> Result<Bias, String> {
+    let expected = "expected metres,texels,slope as in 0.001,0.5,5 (the slope may be `off`)";
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let [constant, offset, slope] = parts[..] else { return Err(expected.into()) };
+    let number = |s: &str| s.parse::<f64>().ok().filter(|v| v.is_finite() && *v >= 0.0).ok_or(expected);
+    Ok(Bias {
+        constant: ConstantBias::World(number(constant)?),
+        normal_offset_texels: number(offset)?,
+        receiver_plane: match slope {
+            "off" => ReceiverPlane::Off,
+            _ => ReceiverPlane::On { max_slope: number(slope)? },
+        },
+    })
+}
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, as in 1920x1080")?;

@@ -37,7 +37,9 @@ impl CliError {
     /// The exit codes that the help lists.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Usage(_) | Self::Scene(SceneError::UnknownName { .. }) => 2,
+            Self::Usage(_)
+            | Self::Scene(SceneError::UnknownName { .. })
+            | Self::Shadow(ShadowError::UnknownBackend { .. }) => 2,
             Self::NothingScored(_) => 3,
             Self::Interrupted { .. } => 130,
             _ => 4,

@@ -21,6 +21,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
         out: out.clone(),
         map_texels: args.view.map,
         keep_frames: args.keep_frames,
+        bias: args.bias,
         command: command_line(),
         now,
     };

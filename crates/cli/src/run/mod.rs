@@ -5,6 +5,7 @@ mod extras;
 mod measure;
 mod panel;
 mod pictures;
+mod provenance;
 mod scorecard;
 mod unit;
 mod window;
@@ -20,7 +21,7 @@ use std::path::PathBuf;
 use umbrage_metrics::Bootstrap;
 use umbrage_reference::{Cache, Tracer};
 use umbrage_report::{RunWriter, Scorecard, WindowPictures};
-use umbrage_shadows::{Gpu, Renderer};
+use umbrage_shadows::{Bias, Gpu, Renderer};
 use window::Window;
 
 /// Where things go, and what is kept beside the report.
@@ -29,6 +30,8 @@ pub(crate) struct Settings {
     pub(crate) out: PathBuf,
     pub(crate) map_texels: u32,
     pub(crate) keep_frames: bool,
+    /// In place of the calibrations' own, for all variants.
+    pub(crate) bias: Option<Bias>,
     pub(crate) command: String,
     pub(crate) now: Now,
 }
@@ -153,6 +156,9 @@ impl Run<'_> {
         let software = gpu.description().is_software();
         let adapter_key = format!("{:?} {}", gpu.description(), self.program);
         let mut renderer = Renderer::new(gpu, scene, self.settings.map_texels)?;
+        if let Some(bias) = self.settings.bias {
+            renderer.set_bias(bias);
+        }
         for name in &entry.paths {
             let path = scene.path(name)?;
             let window_frames = self.plan.window.min(path.frames.len() as u32);

@@ -6,15 +6,14 @@ use crate::error::CliError;
 use crate::suite::Plan;
 use std::collections::BTreeMap;
 use umbrage_metrics::{
-    Bootstrap, Comparisons, METRICS, Quantity, Score, TILE_PX, TileTable, cells, compare_all, edge_crawl,
+    Bootstrap, Comparisons, METRICS, Quantity, Score, TileTable, cells, compare_all, edge_crawl,
     swimming_per_frame,
 };
 use umbrage_report::{
-    AdapterCard, Calibration, Measured, MetricCard, OverallCard, PairedCard, Provenance, ResultCard,
-    SCHEMA_VERSION, SceneCard, Scorecard, SettingsCard, TruthCard, VariantCard, WindowCard,
+    Calibration, Measured, MetricCard, OverallCard, PairedCard, ResultCard, SCHEMA_VERSION, Scorecard,
+    SettingsCard, VariantCard, WindowCard,
 };
-use umbrage_scene::{AreaLight, Scene};
-use umbrage_shadows::{ConstantBias, Gpu, LightKind, LightMap, ReceiverPlane, VariantId};
+use umbrage_shadows::{ConstantBias, Gpu, ReceiverPlane, VariantId};
 
 /// Metrics whose groups and pairs are shown.
 const COMPARED: [Quantity; 4] = [Quantity::Error, Quantity::Banding, Quantity::Swimming, Quantity::Noise];
@@ -29,7 +28,7 @@ pub(super) fn assemble(
     let usable = comparable(scored);
     let mut card = Scorecard {
         schema_version: SCHEMA_VERSION,
-        provenance: provenance(plan, settings, gpu),
+        provenance: super::provenance::provenance(plan, settings, gpu),
         metrics: METRICS.iter().map(MetricCard::from).collect(),
         windows: Vec::new(),
         variants: plan.variants.iter().map(|&v| variant_card(v, plan)).collect(),
@@ -99,79 +98,10 @@ fn pairs(comparisons: &[(Quantity, Comparisons)], window: Option<usize>) -> Vec<
     comparisons.iter().flat_map(|(q, c)| c.pairs.iter().map(move |pair| card(*q, pair))).collect()
 }
 
-fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provenance {
-    Provenance {
-        tool_version: env!("CARGO_PKG_VERSION").into(),
-        date: settings.now.rfc3339.clone(),
-        command: settings.command.clone(),
-        suite: plan.name.clone(),
-        adapter: adapter_card(gpu.description()),
-        width: plan.size.0,
-        height: plan.size.1,
-        frames: plan.window,
-        seeds: plan.seeds,
-        tile_px: TILE_PX,
-        shadow_map_texels: settings.map_texels,
-        truth: TruthCard {
-            samples_per_half: plan.samples,
-            basis_samples: plan.basis_samples,
-            method: "shafts: every triangle between point and light against Owen-scrambled Sobol samples; rays where \
-                     there are too many"
-                .into(),
-        },
-        scenes: plan.jobs.iter().map(|job| scene_card(&job.scene, settings.map_texels)).collect(),
-        notes: vec![format!("paths of {} frames in windows of {}", plan.frames, plan.window)],
-    }
-}
-
-/// What a report says about an adapter.
-fn adapter_card(adapter: &umbrage_shadows::AdapterDescription) -> AdapterCard {
-    AdapterCard {
-        name: adapter.name.clone(),
-        driver: adapter.driver.clone(),
-        backend: adapter.backend.clone(),
-        device_type: adapter.device_type.into(),
-        is_cpu: adapter.is_software(),
-    }
-}
-
-fn scene_card(scene: &Scene, texels: u32) -> SceneCard {
-    let light = &scene.lights[0];
-    let map = LightMap::new(scene, light, texels);
-    let projection = match map.kind {
-        LightKind::Sun => format!("orthographic, {:.4} m wide", 1.0 / map.scale),
-        LightKind::Local => {
-            format!("perspective, {:.1} degrees", 2.0 * (0.5 / map.scale).atan().to_degrees())
-        }
-    };
-    let hash: String = scene.content_hash().iter().take(16).map(|b| format!("{b:02x}")).collect();
-    SceneCard {
-        name: scene.name.clone(),
-        content_hash: hash,
-        light: describe_light(light),
-        shadow_map: format!("{projection}, {texels}² texels of {:.2} mm", 1000.0 * map.texel_world()),
-        notes: scene.notes.clone(),
-    }
-}
-
-fn describe_light(light: &AreaLight) -> String {
-    match *light {
-        AreaLight::Sun { angular_diameter_radians, direction_to_light } => format!(
-            "sun, {:.3} degrees across, elevation {:.1} degrees",
-            angular_diameter_radians.to_degrees(),
-            direction_to_light.y.asin().to_degrees()
-        ),
-        AreaLight::Disk { radius_world, .. } => format!("disk, radius {radius_world} m"),
-        AreaLight::Rect { half_u, half_v, .. } => {
-            format!("rectangle, {:.3} x {:.3} m", 2.0 * half_u.length(), 2.0 * half_v.length())
-        }
-        AreaLight::Sphere { radius_world, .. } => format!("sphere, radius {radius_world} m"),
-    }
-}
-
 fn variant_card(id: VariantId, plan: &Plan) -> VariantCard {
     let info = id.info();
     let bias = id.calibration.default_bias();
+    let kernels = id.kernels();
     let passes = id.passes(&plan.jobs[0].scene);
     VariantCard {
         name: id.variant.name.into(),
@@ -192,11 +122,11 @@ fn variant_card(id: VariantId, plan: &Plan) -> VariantCard {
                 ReceiverPlane::Off => "off".into(),
                 ReceiverPlane::On { max_slope } => format!("at texel centres, slope up to {max_slope}"),
             },
-            search_radius: id.kernels(),
-            kernel_cap: "the search radius".into(),
-            radius_convention: "radius of the disc in which the taps lie".into(),
+            search_radius: kernels.search_radius,
+            kernel_cap: kernels.cap,
+            radius_convention: kernels.radius_convention,
             outside_the_map: "lit".into(),
-            more: BTreeMap::from([("passes".to_string(), passes.join(", "))]),
+            more: BTreeMap::from([("kernel".into(), kernels.kernel), ("passes".into(), passes.join(", "))]),
         },
         source: info.document.into(),
         sentence: info.title.into(),

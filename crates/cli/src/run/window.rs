@@ -56,7 +56,7 @@ pub(crate) struct Facts {
 
 /// Truth of the pixel reading: unbiased at any number of samples, and only used for the difference
 /// between the two readings.
-const PIXEL_SAMPLES: u32 = 64;
+pub(super) const PIXEL_SAMPLES: u32 = 64;
 
 /// Sun discs smaller than a sample could resolve are exact anyway; these seeds keep the estimates
 /// of anchors and pixels apart.
