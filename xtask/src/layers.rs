@@ -3,6 +3,7 @@
 use crate::steps::{Outcome, cargo};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 use std::process::Command;
 
 /// What each crate may use of the workspace. `scene` and `frame` are leaves; `reference` and
@@ -52,7 +53,9 @@ pub(crate) fn check() -> Outcome {
         .map_err(|e| format!("cargo metadata: {e}"))?;
     let metadata: Value =
         serde_json::from_slice(&output.stdout).map_err(|e| format!("cargo metadata: {e}"))?;
-    let offences = offences(&dependencies(&metadata));
+    let mut offences = offences(&dependencies(&metadata));
+    let root = metadata["workspace_root"].as_str().unwrap_or(".");
+    wgpu_outside_its_module(&Path::new(root).join("crates/shadows/src"), &mut offences)?;
     if offences.is_empty() {
         println!("layers: every crate uses only what it may");
         return Ok(());
@@ -69,6 +72,24 @@ fn dependencies(metadata: &Value) -> BTreeMap<String, BTreeSet<String>> {
         names.map(str::to_string).collect()
     };
     packages.iter().map(|p| (p["name"].as_str().unwrap_or_default().to_string(), ordinary(p))).collect()
+}
+
+/// In `shadows` only `src/gpu/` knows wgpu.
+fn wgpu_outside_its_module(folder: &Path, offences: &mut Vec<String>) -> Outcome {
+    let failed = |e: std::io::Error| format!("{}: {e}", folder.display());
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.is_dir() {
+            if path.file_name().is_none_or(|n| n != "gpu") {
+                wgpu_outside_its_module(&path, offences)?;
+            }
+        } else if path.extension().is_some_and(|e| e == "rs")
+            && std::fs::read_to_string(&path).map_err(failed)?.contains("wgpu::")
+        {
+            offences.push(format!("{}: only src/gpu/ may name wgpu", path.display()));
+        }
+    }
+    Ok(())
 }
 
 fn offences(crates: &BTreeMap<String, BTreeSet<String>>) -> Vec<String> {
