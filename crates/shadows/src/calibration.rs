@@ -107,17 +107,3 @@ pub(crate) fn slots(inputs: &Inputs<'_>) -> (Vec<Fragment>, Vec<(&'static str, f
     ];
     (vec![light, law, bias], constants)
 }
-
-/// What a scorecard says about search radius and kernel cap.
-pub(crate) fn describe_kernels(calibration: Calibration) -> String {
-    match calibration {
-        Calibration::AsPrinted => format!(
-            "kernel radius at most {PRINTED_RADIUS_UV} map widths, law saturate(80 ((z-b)/b)^2); search radius the same \
-             times the search scale; radius = that of the disc in which the taps lie"
-        ),
-        Calibration::LightMatched => "kernel radius = the light's cone at the blocker's depth; search radius = the cone at \
-             the nearest geometry's depth times the search scale; cap = the search radius; radius = that of the disc in \
-             which the taps lie"
-            .to_string(),
-    }
-}

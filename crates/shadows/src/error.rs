@@ -14,6 +14,12 @@ pub enum ShadowError {
         /// Names of those found.
         found: String,
     },
+    /// A graphics interface that this program does not use.
+    #[error("unknown graphics interface \"{wanted}\"\n  help: choose vulkan, metal or dx12")]
+    UnknownBackend {
+        /// As it was given.
+        wanted: String,
+    },
     /// The adapter refused to give a device.
     #[error("the adapter {adapter} gives no device: {reason}")]
     NoDevice {

@@ -6,6 +6,7 @@
 mod calibration;
 mod error;
 mod gpu;
+mod kernels;
 mod layout;
 mod light_map;
 mod map_depths;
@@ -19,6 +20,7 @@ mod techniques;
 pub use calibration::{Bias, ConstantBias, ReceiverPlane};
 pub use error::ShadowError;
 pub use gpu::{AdapterChoice, AdapterDescription, Gpu, Timing, adapters};
+pub use kernels::Kernels;
 pub use layout::Globals;
 pub use light_map::{LightKind, LightMap};
 pub use recording::{Binding, ComputePass, Format, Pass, RasterPass, Recording, TextureId, TextureInfo};

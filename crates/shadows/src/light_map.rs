@@ -1,6 +1,6 @@
 //! The shadow map's projection: orthographic for a sun, perspective for a light that has a place.
 
-use crate::map_depths::Pyramid;
+use crate::map_depths::{Pyramid, over_square};
 use glam::{Mat4, Vec3};
 use umbrage_scene::{AreaLight, Scene, ShadowRegion};
 
@@ -28,7 +28,8 @@ pub struct LightMap {
     pub scale: f32,
     /// Sun: tangent of the angular radius. Local: radius in metres (disc of equal area).
     pub light_size: f32,
-    /// Smallest depth of any surface in the map (sun: of any vertex of the scene), metres.
+    /// Smallest depth of any surface in the map, metres. Sun: of any corner of a triangle whose
+    /// bounding rectangle in light space overlaps the map, which is no more.
     pub nearest_blocker: f32,
     /// Depth of the far plane, metres.
     pub far: f32,
@@ -55,13 +56,17 @@ impl LightMap {
         let towards = light.direction_from(centre);
         // The first document's demo sees the scene from one map width away; farther where
         // something stands higher, for nothing may be behind the light.
-        let heights = scene.geometry.positions.iter().map(|&p| (p - centre).dot(towards));
+        let height = |p: Vec3| (p - centre).dot(towards);
+        let heights = scene.geometry.positions.iter().map(|&p| height(p));
         let (low, high) = heights.fold((0f32, 0f32), |(lo, hi), h| (lo.min(h), hi.max(h)));
         let eye_distance = width_world.max(high * 1.01 + 0.01);
         let light_from_world = view_matrix(centre + towards * eye_distance, -towards);
         let far = eye_distance - low * 1.01 + 0.01;
         let half = 0.5 * width_world;
         let projection = glam::camera::rh::proj::directx::orthographic(-half, half, -half, half, 0.0, far);
+        // What stands beside the map casts nothing into it and must not widen searches.
+        let corners = over_square(&scene.geometry, light_from_world, half).flatten();
+        let highest = corners.map(height).reduce(f32::max);
         let angular_radius = 0.5 * light.angular_diameter_radians().unwrap_or(0.0);
         Self {
             kind: LightKind::Sun,
@@ -70,7 +75,8 @@ impl LightMap {
             texels,
             scale: 1.0 / width_world,
             light_size: angular_radius.tan(),
-            nearest_blocker: eye_distance - high,
+            // Without any surface there is nothing to search.
+            nearest_blocker: highest.map_or(far, |high| eye_distance - high),
             far,
             eye_distance,
             reference_gap: reference_gap_world,

@@ -1,7 +1,23 @@
-//! How deep a local light's map reaches: the least depth of any surface inside its pyramid.
+//! Which surfaces a map holds: those over a sun's square, and the least depth of any inside a local
+//! light's pyramid.
 
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Vec2, Vec3, Vec3Swizzles as _, Vec4};
 use umbrage_scene::Geometry;
+
+/// The triangles (world space) whose bounding rectangle in light space overlaps a sun's map of this
+/// half-width in metres: all that the map can see, and a few more.
+pub(crate) fn over_square(
+    geometry: &Geometry,
+    light_from_world: Mat4,
+    half: f32,
+) -> impl Iterator<Item = [Vec3; 3]> {
+    let all = (0..geometry.triangles.len()).map(|triangle| geometry.corners(triangle));
+    all.filter(move |corners| {
+        let [a, b, c] = corners.map(|p| light_from_world.transform_point3(p).xy());
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        low.cmple(Vec2::splat(half)).all() && high.cmpge(Vec2::splat(-half)).all()
+    })
+}
 
 /// The pyramid that a map sees, in light space.
 pub(crate) struct Pyramid {

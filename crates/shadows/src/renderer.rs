@@ -1,7 +1,7 @@
 //! A scene on a graphics adapter: masks for frames, values for anchors, intermediate targets.
 
 use crate::layout::{Anchor, Vertex};
-use crate::{Bias, Gpu, Info, Inputs, LightMap, Recording, Seeding, ShadowError, Timing, VariantId};
+use crate::{Bias, Gpu, Info, Inputs, Kernels, LightMap, Recording, Seeding, ShadowError, Timing, VariantId};
 use crate::{Receivers, stages};
 use glam::Vec3;
 use umbrage_frame::{Anchors, Gbuffer, Image, View};
@@ -268,9 +268,9 @@ impl VariantId {
         self.calibration.default_bias().describe()
     }
 
-    /// Search radius, kernel cap and radius convention, in words.
-    pub fn kernels(&self) -> String {
-        crate::calibration::describe_kernels(self.calibration)
+    /// Search radius, kernel, its cap and the radius convention, in words.
+    pub fn kernels(&self) -> Kernels {
+        self.variant.technique.kernels(self.calibration)
     }
 }
 

@@ -1,12 +1,14 @@
 //! What a technique is, and how one is chosen and told what to shade.
 
-use crate::{Bias, Globals, LightMap, Recording, VARIANTS};
+use crate::{Bias, Globals, Kernels, LightMap, Recording, VARIANTS};
 use umbrage_frame::View;
 
 /// An algorithm at one typed setting. Implemented by the settings of each technique's own file.
 pub trait Technique: Sync {
     /// What people and scorecards need to know.
     fn info(&self) -> Info;
+    /// Its search and its kernel in a calibration, in words.
+    fn kernels(&self, calibration: Calibration) -> Kernels;
     /// Writes the passes of one frame; the last one fills the recording's values.
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>);
 }

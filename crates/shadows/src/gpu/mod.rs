@@ -36,7 +36,7 @@ impl Gpu {
     /// Opens an adapter.
     ///
     /// # Errors
-    /// None that fits, or one that gives no device.
+    /// An unknown backend, no adapter that fits, or one that gives no device.
     pub fn new(choice: &AdapterChoice) -> Result<Self, ShadowError> {
         let (adapter, description) = adapter::choose(choice)?;
         let wanted = wgpu::Features::TIMESTAMP_QUERY;

@@ -2,9 +2,12 @@
 
 use crate::shader::{self, Fragment};
 use crate::stages::{Shade, shade};
-use crate::{Info, Inputs, Recording, Technique};
+use crate::{Calibration, Info, Inputs, Kernels, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("chss", include_str!("chss.wgsl"));
+
+/// Search radius over the largest kernel radius.
+const SEARCH_SCALE: f64 = 1.0;
 
 /// Blocker search and filter per pixel.
 pub(crate) struct Chss {
@@ -24,6 +27,12 @@ impl Technique for Chss {
         }
     }
 
+    fn kernels(&self, calibration: Calibration) -> Kernels {
+        let search = format!("{} x {SEARCH_SCALE:.1}", calibration.largest_radius());
+        let kernel = format!("{}; without a blocker 0", calibration.radius_for("the blockers' mean depth"));
+        Kernels::hardening(calibration, search, kernel)
+    }
+
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
         let technique = Shade {
             label: "chss",
@@ -36,7 +45,7 @@ impl Technique for Chss {
             ],
             constants: vec![
                 ("SEARCH_TAPS", f64::from(self.search_taps)),
-                ("SEARCH_SCALE", 1.0),
+                ("SEARCH_SCALE", SEARCH_SCALE),
                 ("FILTER_TAPS", f64::from(self.filter_taps)),
             ],
             source: None,

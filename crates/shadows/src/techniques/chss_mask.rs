@@ -2,7 +2,7 @@
 
 use crate::shader::{self, Fragment};
 use crate::stages::{Blur, GAUSS_7, PenumbraMask, Shade, blur, penumbra_mask, shade};
-use crate::{Calibration, Info, Inputs, Recording, Technique};
+use crate::{Calibration, Info, Inputs, Kernels, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("chss_mask", include_str!("chss_mask.wgsl"));
 
@@ -16,6 +16,14 @@ pub(crate) struct ChssMask {
     pub(crate) search_scale: f64,
     /// Bilinear-compare taps of the filter.
     pub(crate) filter_taps: u32,
+}
+
+/// Levels that the mask stores: the demo's has 8 bits, light-matched radii keep their floats (0).
+fn levels(calibration: Calibration) -> u32 {
+    match calibration {
+        Calibration::AsPrinted => 255,
+        Calibration::LightMatched => 0,
+    }
 }
 
 /// The first document's own setting.
@@ -37,14 +45,28 @@ impl Technique for ChssMask {
         }
     }
 
-    fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
-        // The demo stores the mask in 8 bits; light-matched radii keep their floats.
-        let levels = match inputs.calibration {
-            Calibration::AsPrinted => 255,
-            Calibration::LightMatched => 0,
+    fn kernels(&self, calibration: Calibration) -> Kernels {
+        let search = format!("{} x {}", calibration.largest_radius(), self.search_scale);
+        let stored = match levels(calibration) {
+            0 => "floats".into(),
+            levels => format!("1/{levels} of the cap (8 bits)"),
         };
-        let settings =
-            PenumbraMask { step: self.step, taps: self.search_taps, search_scale: self.search_scale, levels };
+        let kernel = format!(
+            "{}; without a blocker 0; found once per {step}x{step} pixels, stored in {stored}, blurred 7x7 with sigma 3, \
+             fetched bilinearly",
+            calibration.radius_for("the blockers' mean depth"),
+            step = self.step,
+        );
+        Kernels::hardening(calibration, search, kernel)
+    }
+
+    fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
+        let settings = PenumbraMask {
+            step: self.step,
+            taps: self.search_taps,
+            search_scale: self.search_scale,
+            levels: levels(inputs.calibration),
+        };
         let mask = penumbra_mask(recording, inputs, settings);
         let labels = ["penumbra-mask-rows", "penumbra-mask-blurred"];
         let blurred = blur(recording, mask, Blur { weights: GAUSS_7, labels });

@@ -3,12 +3,16 @@
 use crate::calibration::PRINTED_RADIUS_UV;
 use crate::shader::{self, Fragment};
 use crate::stages::{BOX_3, Blur, MinFilter, Shade, blur, min_filter, shade, shadow_map};
-use crate::{Calibration, Info, Inputs, LightKind, LightMap, Recording, Technique};
+use crate::{Calibration, Info, Inputs, Kernels, LightKind, LightMap, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("chss_min", include_str!("chss_min.wgsl"));
 
 /// The demo reduces the map by 4 before it filters.
 const SHRINK: u32 = 4;
+
+/// Least and largest half-width of the region, in reduced texels: the demo's own, and what a pass
+/// can afford.
+const REGION: (u32, u32) = (2, 64);
 
 /// Minimum of the shadow map in place of a blocker search.
 pub(crate) struct ChssMin {
@@ -24,6 +28,23 @@ impl Technique for ChssMin {
             taps: format!("1 min + {} x 4", self.filter_taps),
             stochastic: true,
         }
+    }
+
+    fn kernels(&self, calibration: Calibration) -> Kernels {
+        let reach = match calibration {
+            Calibration::AsPrinted => calibration.largest_radius(),
+            Calibration::LightMatched => {
+                "the light's cone from the shadow region's centre to the nearest geometry's depth".into()
+            }
+        };
+        let search = format!(
+            "the region of the minimum: half-width ceil(r x the map's texels / {SHRINK}) reduced texels, at least {} and \
+             at most {}, r = {reach}; the map is first reduced by {SHRINK}",
+            REGION.0, REGION.1
+        );
+        let blocker =
+            "the region's least depth, blurred by a 3x3 box of reduced texels, fetched bilinearly, at most z";
+        Kernels::hardening(calibration, search, calibration.radius_for(blocker))
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
@@ -61,5 +82,5 @@ fn region_radius(calibration: Calibration, light: &LightMap) -> u32 {
         }
     };
     let texels = radius_uv * light.texels as f32 / SHRINK as f32;
-    (texels.ceil() as u32).clamp(2, 64)
+    (texels.ceil() as u32).clamp(REGION.0, REGION.1)
 }

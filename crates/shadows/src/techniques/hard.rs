@@ -2,7 +2,7 @@
 
 use crate::shader::Fragment;
 use crate::stages::{Shade, shade};
-use crate::{Info, Inputs, Recording, Technique};
+use crate::{Calibration, Info, Inputs, Kernels, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("hard", include_str!("hard.wgsl"));
 
@@ -16,6 +16,15 @@ impl Technique for Hard {
             document: "T1: second document; fourth document",
             taps: "1".into(),
             stochastic: false,
+        }
+    }
+
+    fn kernels(&self, _: Calibration) -> Kernels {
+        Kernels {
+            search_radius: "none".into(),
+            kernel: "one texel".into(),
+            cap: "one texel".into(),
+            radius_convention: "none: a texel is a square of the map".into(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::shader::Fragment;
 use crate::stages::{Shade, shade};
-use crate::{Calibration, Info, Inputs, Recording, Technique};
+use crate::{Calibration, Info, Inputs, Kernels, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("pcf_grid", include_str!("pcf_grid.wgsl"));
 
@@ -19,6 +19,27 @@ impl Technique for PcfGrid {
             document: "T3: first document, figure 2; second and fourth document",
             taps: (self.side * self.side).to_string(),
             stochastic: false,
+        }
+    }
+
+    fn kernels(&self, calibration: Calibration) -> Kernels {
+        let kernel = match calibration {
+            Calibration::AsPrinted => {
+                format!("{0}x{0} texels of the map, side {1} texels", self.side, self.side - 1)
+            }
+            Calibration::LightMatched => {
+                format!("square of half-side = {}", calibration.fixed_radius())
+            }
+        };
+        let cap = match calibration {
+            Calibration::AsPrinted => "the same everywhere".into(),
+            Calibration::LightMatched => calibration.largest_radius(),
+        };
+        Kernels {
+            search_radius: "none".into(),
+            kernel,
+            cap,
+            radius_convention: "half-side of the square on whose border the outermost taps lie".into(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::shader::{self, Fragment};
 use crate::stages::{Shade, shade};
-use crate::{Info, Inputs, Recording, Technique};
+use crate::{Calibration, Info, Inputs, Kernels, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("pcf_vogel", include_str!("pcf_vogel.wgsl"));
 
@@ -36,6 +36,10 @@ impl Technique for PcfVogel {
         };
         let stochastic = self.rotation == Rotation::Ign;
         Info { title, document, taps: format!("{} x 4", self.taps), stochastic }
+    }
+
+    fn kernels(&self, calibration: Calibration) -> Kernels {
+        Kernels::fixed_disc(calibration)
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {

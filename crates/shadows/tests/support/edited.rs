@@ -1,7 +1,9 @@
 //! A technique whose recording is changed before it runs: to read an intermediate quantity, or to
 //! plant an error and see that a test notices it.
 
-use umbrage_shadows::{Calibration, Fragment, Info, Inputs, Pass, Recording, Technique, Variant, VariantId};
+use umbrage_shadows::{
+    Calibration, Fragment, Info, Inputs, Kernels, Pass, Recording, Technique, Variant, VariantId,
+};
 
 /// A piece of WGSL to replace.
 #[derive(Clone, Copy, Debug)]
@@ -25,6 +27,10 @@ struct Edited {
 impl Technique for Edited {
     fn info(&self) -> Info {
         self.original.info()
+    }
+
+    fn kernels(&self, calibration: Calibration) -> Kernels {
+        self.original.kernels(calibration)
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {

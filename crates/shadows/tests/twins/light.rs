@@ -48,14 +48,27 @@ impl Light {
             // One map width away, or a little above everything.
             let clear = highest * Approx::constant(1.01) + Approx::constant(0.01);
             let eye_distance = width.max(clear);
+            let axes = axes(towards);
+            let overlaps = |corners: &[Approx3; 3]| {
+                axes[..2].iter().all(|&axis| {
+                    let place = corners.map(|p| p.minus(centre).dot(axis).value);
+                    let half = 0.5 * width.value;
+                    place.iter().any(|&x| x <= half) && place.iter().any(|&x| x >= -half)
+                })
+            };
+            // Of the triangles whose bounding rectangles overlap the map.
+            let triangles = (0..scene.geometry.triangles.len()).map(|t| scene.geometry.corners(t));
+            let seen = triangles.map(|corners| corners.map(Approx3::from_vec)).filter(overlaps);
+            let heights = seen.flatten().map(|p| p.minus(centre).dot(towards));
+            let highest_seen = heights.reduce(Approx::max).expect("the map sees something");
             let tangent = f64::from(0.5 * angular_diameter_radians).tan();
             Self {
-                axes: axes(towards),
+                axes,
                 eye: centre.plus(towards.times(eye_distance)),
                 is_sun: true,
                 scale: ONE / width,
                 size: Approx::library(tangent),
-                nearest: eye_distance - highest,
+                nearest: eye_distance - highest_seen,
                 eye_distance,
                 reference_gap,
                 texels,

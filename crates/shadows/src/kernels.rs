@@ -1,0 +1,61 @@
+//! What a scorecard says about kernels, in the words that several techniques share.
+
+use crate::Calibration;
+use crate::calibration::PRINTED_RADIUS_UV;
+
+/// How far a technique looks for blockers and how wide it filters, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Kernels {
+    /// How far blockers are sought; "none" without a search.
+    pub search_radius: String,
+    /// How the width of the filter comes about.
+    pub kernel: String,
+    /// The widest that it may become.
+    pub cap: String,
+    /// What "radius" means in the other three.
+    pub radius_convention: String,
+}
+
+/// Of kernels on Vogel's disc; its outermost tap lies at sqrt((taps - 0.5) / taps) of the radius.
+const DISC: &str = "radius of the disc in which the taps lie";
+
+impl Kernels {
+    /// Of a filter on a disc that widens with the blocker's distance.
+    pub(crate) fn hardening(calibration: Calibration, search_radius: String, kernel: String) -> Self {
+        Self { search_radius, kernel, cap: calibration.largest_radius(), radius_convention: DISC.into() }
+    }
+
+    /// Of a filter on a disc that knows no blocker.
+    pub(crate) fn fixed_disc(calibration: Calibration) -> Self {
+        let (kernel, cap) = (calibration.fixed_radius(), calibration.largest_radius());
+        Self { search_radius: "none".into(), kernel, cap, radius_convention: DISC.into() }
+    }
+}
+
+impl Calibration {
+    /// The law slot's `search_radius_uv`, which no `kernel_radius_uv` exceeds.
+    pub(crate) fn largest_radius(self) -> String {
+        match self {
+            Self::AsPrinted => format!("{PRINTED_RADIUS_UV} map widths"),
+            Self::LightMatched => "the light's cone at the nearest geometry's depth".into(),
+        }
+    }
+
+    /// The law slot's `kernel_radius_uv` for a receiver at depth z.
+    pub(crate) fn radius_for(self, blocker: &str) -> String {
+        match self {
+            Self::AsPrinted => {
+                format!("{PRINTED_RADIUS_UV} map widths x saturate(80 ((z - b) / b)^2), b = {blocker}")
+            }
+            Self::LightMatched => format!("the light's cone at depth b, b = {blocker}"),
+        }
+    }
+
+    /// The law slot's `fixed_radius_uv`.
+    pub(crate) fn fixed_radius(self) -> String {
+        match self {
+            Self::AsPrinted => self.largest_radius(),
+            Self::LightMatched => "the light's cone at the scene's reference gap".into(),
+        }
+    }
+}
