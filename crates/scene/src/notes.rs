@@ -7,6 +7,9 @@ use crate::{AreaLight, Scene};
 pub(crate) fn about(scene: &Scene) -> Vec<String> {
     let soup = Soup::from(&scene.geometry);
     let mut notes = Vec::new();
+    if scene.lights.len() > 1 {
+        notes.push(format!("{} lights: the first is scored", scene.lights.len()));
+    }
     for (i, light) in scene.lights.iter().enumerate() {
         notes.extend(about_light(light, scene, &soup).map(|what| format!("light {} {what}", i + 1)));
     }

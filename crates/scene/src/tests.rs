@@ -179,6 +179,17 @@ fn a_court_is_seen_from_inside_its_bounds() {
 }
 
 #[test]
+fn lights_beyond_the_first_are_noted() {
+    let mut file = file();
+    assert_eq!(build(&file).notes, [""; 0]);
+    let sphere = |x: f64| LightSpec::Sphere { centre: [x, 9.0, 2.0], radius_world: 0.1 };
+    file.lights.push(sphere(1.0));
+    assert_eq!(build(&file).notes, ["2 lights: the first is scored"]);
+    file.lights.push(sphere(2.0));
+    assert_eq!(build(&file).notes, ["3 lights: the first is scored"]);
+}
+
+#[test]
 fn suspicious_lights_and_cameras_are_noted() {
     let noted = |light: LightSpec, expected: &str| {
         let mut file = file();

@@ -51,7 +51,9 @@ fn title(motion: &Motion) -> String {
         }
         Motion::Strafe { metres_per_second, .. } => format!("strafe, {metres_per_second} m/s to the right"),
         Motion::Oblique { metres_per_second, .. } => format!("low over the floor at {metres_per_second} m/s"),
-        Motion::Creep { px_per_frame, .. } => format!("creep, {px_per_frame} px a frame to the right"),
+        Motion::Creep { px_per_frame, reference_height_px, .. } => {
+            format!("creep, {px_per_frame} px a frame in a picture {reference_height_px} px high")
+        }
         Motion::LightSweep { degrees_per_frame, .. } => {
             format!("the light turns by {degrees_per_frame} degrees a frame")
         }

@@ -54,6 +54,7 @@ fn a_creep_moves_a_sixteenth_of_a_pixel_a_frame() {
         assert_eq!((px_per_frame, reference_height_px), (0.0625, 720.0));
         let scene = Scene::builtin(name).expect("a scene");
         let path = scene.path("P5").expect("P5");
+        assert_eq!(path.title, "creep, 0.0625 px a frame in a picture 720 px high", "{name}");
         let pixel = |frame: usize| {
             let camera = path.frames[frame].camera;
             let at = camera.world_from_camera.as_dmat4().inverse() * DVec3::from(target).extend(1.0);
