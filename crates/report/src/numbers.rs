@@ -66,43 +66,63 @@ pub(crate) fn free_number(value: f64) -> String {
     format!("{}×{}", number(power.scaled(value)), power.label())
 }
 
-/// A score with a half-width: "1.84 ± 0.12". An exact one (no width) is the number alone.
-pub(crate) fn with_interval(score: Score, power: Power) -> (String, Option<String>) {
+/// A score and its interval: "1.84" and "± 0.12", or "1.12" and "[1.02 to 3.3]" where a symmetric
+/// "±" would contradict the interval about the score's `goal` (0, or 1 of a ratio). An exact one
+/// (no width) is the number alone.
+pub(crate) fn with_interval(score: Score, goal: f64, power: Power) -> (String, Option<String>) {
     let (value, half) = (power.scaled(score.value), power.scaled(half_width(score)));
     if half == 0.0 || half.abs() < 1e-9 * value.abs() {
         return (number(value), None);
+    }
+    if hides_its_side(score, goal) {
+        return with_ends(score, goal, power);
     }
     // A digit beyond the second of the half-width says nothing.
     let places = decimals(value).min(decimals(half) - 1).clamp(0, 12);
     let shown = fixed(half, places);
     let lost = shown.chars().all(|c| matches!(c, '0' | '.'));
-    (fixed(value, places), Some(if lost { fixed(half, decimals(half) - 2) } else { shown }))
+    let half = if lost { fixed(half, decimals(half) - 2) } else { shown };
+    (fixed(value, places), Some(format!("± {half}")))
 }
 
-/// As [`with_interval`], in one string and with the power written out.
+/// The value and both ends of its interval.
+fn with_ends(score: Score, goal: f64, power: Power) -> (String, Option<String>) {
+    let [value, low, high, goal] = [score.value, score.low, score.high, goal].map(|v| power.scaled(v));
+    // The second digit of its distance from the value, and at least the first from the goal:
+    // an end beside 1 must not read 1.00.
+    let places = |end: f64| {
+        let from_goal = if end == goal { 0 } else { decimals(end - goal) - 2 };
+        (decimals(end - value) - 1).max(from_goal).clamp(0, 12)
+    };
+    let ends = format!("[{} to {}]", fixed(low, places(low)), fixed(high, places(high)));
+    (fixed(value, places(low).max(places(high))), Some(ends))
+}
+
+/// As [`with_interval`] about 0, in one string and with the power written out.
 pub(crate) fn free_score(score: Score) -> String {
+    free_score_about(score, 0.0)
+}
+
+/// As [`free_score`], of a score whose goal is not always 0.
+pub(crate) fn free_score_about(score: Score, goal: f64) -> String {
     let power = Power::in_text(score.value.abs().max(half_width(score)));
     let label = power.label();
-    if hides_its_sign(score) {
-        let [value, low, high] = [score.value, score.low, score.high].map(|v| number(power.scaled(v)));
-        let ends = format!("{value} [{low} to {high}]");
-        return if label.is_empty() { ends } else { format!("{ends}×{label}") };
-    }
-    match with_interval(score, power) {
+    match with_interval(score, goal, power) {
         (value, None) if label.is_empty() => value,
-        (value, Some(half)) if label.is_empty() => format!("{value} ± {half}"),
+        (value, Some(interval)) if label.is_empty() => format!("{value} {interval}"),
         (value, None) => format!("{value}×{label}"),
-        (value, Some(half)) => format!("({value} ± {half})×{label}"),
+        (value, Some(ends)) if ends.starts_with('[') => format!("{value} {ends}×{label}"),
+        (value, Some(half)) => format!("({value} {half})×{label}"),
     }
 }
 
-/// Whether a symmetric "±" would say the opposite of the interval about 0 (bootstrap intervals of
-/// small counts lean to one side).
-fn hides_its_sign(score: Score) -> bool {
+/// Whether a symmetric "±" would say the opposite of the interval about the goal (bootstrap
+/// intervals of small counts lean to one side).
+fn hides_its_side(score: Score, goal: f64) -> bool {
     let half = half_width(score);
-    let resolved = score.low > 0.0 || score.high < 0.0;
-    let looks_resolved = score.value - half > 0.0 || score.value + half < 0.0;
-    resolved != looks_resolved && half > 0.0 && score.value != 0.0
+    let resolved = score.low > goal || score.high < goal;
+    let looks_resolved = score.value - half > goal || score.value + half < goal;
+    resolved != looks_resolved && half > 0.0 && score.value != goal
 }
 
 /// A change in percent, as one would say it: "9 %", "0.6 %".
@@ -161,8 +181,8 @@ mod tests {
     #[test]
     fn digits_stop_where_the_interval_does() {
         let text = |value, half| {
-            let (value, half) = with_interval(score(value, half), Power::ONE);
-            half.map_or(value.clone(), |h| format!("{value} ± {h}"))
+            let (value, half) = with_interval(score(value, half), 0.0, Power::ONE);
+            half.map_or(value.clone(), |h| format!("{value} {h}"))
         };
         assert_eq!(text(1.8432, 0.1234), "1.84 ± 0.12");
         assert_eq!(text(-0.0003, 0.8), "0.00 ± 0.80");
@@ -182,11 +202,22 @@ mod tests {
         let leaning = Score { value: -1.5e-4, low: -3.5e-4, high: -1e-5 };
         assert_eq!(
             free_score(leaning),
-            "−0.150 [−0.350 to −0.0100]×10⁻³",
+            "−0.15 [−0.35 to −0.01]×10⁻³",
             "± 170 would say that it is unresolved"
         );
         assert_eq!(free_number(0.000_012_3), "12.3×10⁻⁶");
         assert_eq!([7, 1234, 1_104_311].map(count), ["7", "1\u{202f}234", "1\u{202f}104\u{202f}311"]);
         assert_eq!([0.091, 0.0061, 0.0194].map(spoken_percent), ["9\u{a0}%", "0.6\u{a0}%", "1.9\u{a0}%"]);
+    }
+
+    #[test]
+    fn a_leaning_interval_shows_its_ends_where_its_goal_asks_for_it() {
+        let wide = Score { value: 1.12, low: 1.016, high: 3.33 };
+        assert_eq!(free_score_about(wide, 1.0), "1.12 [1.02 to 3.3]", "± 1.2 would say that 1 is possible");
+        assert_eq!(free_score_about(Score { low: 1.0004, ..wide }, 1.0), "1.1200 [1.0004 to 3.3]");
+        let near = Score { value: 0.9, low: 0.86, high: 1.02 };
+        assert_eq!(free_score_about(near, 1.0), "0.900 [0.860 to 1.02]", "± 0.08 would say that 1 is not");
+        assert_eq!(free_score_about(near, 0.0), "0.900 ± 0.080");
+        assert_eq!(free_score_about(score(1.12, 0.04), 1.0), "1.12 ± 0.04");
     }
 }

@@ -21,7 +21,7 @@ pub struct WindowPictures {
 /// What is shown of a variant in a window, each in the middle frame. NaN = not counted.
 #[derive(Clone, Debug)]
 pub struct VariantPictures {
-    /// The variant's unoccluded fraction, 0 to 1.
+    /// The variant's unoccluded fraction, 0 to 1, also where it is not counted; NaN = nothing seen.
     pub mask: Image<f32>,
     /// Variant minus truth, -1 to 1.
     pub error: Image<f32>,

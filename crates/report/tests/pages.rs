@@ -6,6 +6,7 @@ use fixture::{Device, scorecard};
 use std::collections::BTreeSet;
 use std::path::Path;
 use tempfile::TempDir;
+use umbrage_metrics::Score;
 use umbrage_report::{Layout, Measured, RunWriter, Scorecard, Written, write_report};
 
 const SIZE: (u32, u32) = (64, 36);
@@ -211,4 +212,32 @@ fn a_large_summary_is_cut_before_a_step_summary_would_be() {
     }
     let text = read(pages_of(&card).path(), "summary.md");
     assert!(text.len() < 1 << 20, "{} bytes", text.len());
+}
+
+#[test]
+fn a_window_says_what_share_of_its_picture_counts() {
+    let html = read(pages_of(&scorecard(Device::Gpu, SIZE)).path(), "index.html");
+    let said = "80.5\u{a0}% of the picture scored, 94.7\u{a0}% of the points that face the light";
+    assert_eq!(html.matches(said).count(), 3);
+    // The still has one frame: nothing moves in front of anything.
+    assert_eq!(html.matches("1.20\u{a0}% hidden in some frame").count(), 2);
+    assert!(html.contains("80.5\u{a0}% of the pictures: 94.7\u{a0}% of the points that face the light"));
+}
+
+#[test]
+fn the_filter_finds_names_calibrations_documents_and_sentences() {
+    let html = read(pages_of(&scorecard(Device::Gpu, SIZE)).path(), "index.html");
+    let words = "data-words=\"hard light-matched S0, section 2 One comparison a pixel: no penumbra at all.\"";
+    assert!(html.contains(words));
+}
+
+#[test]
+fn a_ratio_shows_its_ends_where_half_a_width_would_mislead() {
+    let mut card = scorecard(Device::Gpu, SIZE);
+    let wide = Score { value: 1.12, low: 1.016, high: 3.33 };
+    card.overall[0].scores.insert("width_ratio".into(), wide.into());
+    let folder = pages_of(&card);
+    assert!(read(folder.path(), "index.html").contains("<span class=\"half\">[1.02 to 3.3]</span>"));
+    let summary = read(folder.path(), "summary.md");
+    assert!(summary.contains("1.02 to 3.3") && !summary.contains("1.1 ± 1.2"), "{summary}");
 }

@@ -28,6 +28,18 @@ fn a_scorecard_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn a_file_from_before_the_picture_was_counted_still_loads() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("scorecard.json");
+    let text = scorecard(Device::Gpu, (480, 270)).to_json().expect("legal");
+    let new = |line: &&str| line.contains("\"picture\":") || line.contains("\"occluded\":");
+    let older: Vec<&str> = text.lines().filter(|line| !new(line)).collect();
+    std::fs::write(&path, older.join("\n")).expect("written");
+    let card = Scorecard::load(&path).expect("loaded");
+    assert!(card.windows.iter().all(|w| w.picture == 0.0 && w.occluded == 0.0));
+}
+
+#[test]
 fn another_version_is_refused_with_the_reason() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("scorecard.json");
@@ -56,6 +68,12 @@ fn nan_is_never_written() {
     let mut card = scorecard(Device::Gpu, (480, 270));
     card.windows[1].coverage = f64::INFINITY;
     assert!(card.check().expect_err("refused").to_string().contains("coverage"));
+    let mut card = scorecard(Device::Gpu, (480, 270));
+    card.windows[0].picture = f64::NAN;
+    assert!(card.check().expect_err("refused").to_string().contains("picture"));
+    let mut card = scorecard(Device::Gpu, (480, 270));
+    card.windows[0].occluded = f64::NAN;
+    assert!(card.check().expect_err("refused").to_string().contains("occluded"));
 }
 
 #[test]

@@ -35,6 +35,8 @@ impl Scorecard {
         for window in &self.windows {
             let place = format!("{}, {}", window.scene, window.path);
             finite(window.coverage, &place, "coverage")?;
+            finite(window.picture, &place, "picture")?;
+            finite(window.occluded, &place, "occluded")?;
             finite(window.disagreement, &place, "disagreement")?;
             finite(window.reference_noise, &place, "reference_noise")?;
             finite(window.truth_secs.unwrap_or(0.0), &place, "truth_secs")?;

@@ -74,6 +74,17 @@ pub enum Direction {
     Descriptive,
 }
 
+impl Direction {
+    /// The value that a perfect variant would have; of what only describes, 0: its interval is read
+    /// about that.
+    pub(crate) fn goal(self) -> f64 {
+        match self {
+            Self::One => 1.0,
+            Self::Lower | Self::Descriptive => 0.0,
+        }
+    }
+}
+
 /// What a score means: the definitions at the end of the page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct MetricCard {

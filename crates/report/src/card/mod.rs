@@ -102,6 +102,11 @@ impl Scorecard {
     pub(crate) fn metric(&self, id: &str) -> Option<&MetricCard> {
         self.metrics.iter().find(|m| m.id == id)
     }
+
+    /// The value that a perfect variant would have.
+    pub(crate) fn goal(&self, id: &str) -> f64 {
+        self.metric(id).map_or(0.0, |m| m.direction.goal())
+    }
 }
 
 /// The JSON schema of `scorecard.json`. A copy is shipped as `scorecard.schema.json`.

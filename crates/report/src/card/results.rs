@@ -79,9 +79,10 @@ pub struct PairedCard {
     pub window: Option<usize>,
     /// Metric id.
     pub metric: String,
-    /// a minus b, with its 95 % interval.
+    /// a minus b, with its own 95 % interval, not corrected for the number of comparisons.
     #[schemars(with = "ScoreSchema")]
     pub difference: Score,
-    /// Whether the two can be told apart, after correction for the number of comparisons.
+    /// Whether the two can be told apart after Holm's correction for the number of comparisons: the
+    /// decision that the letters in `groups` show.
     pub resolved: bool,
 }

@@ -21,10 +21,19 @@ pub struct WindowCard {
     pub anchors: u64,
     /// Penumbra tiles.
     pub tiles: u64,
-    /// Share of all anchors that was scored, 0 to 1.
+    /// Of the anchors that face the light, the share that was scored, 0 to 1.
     pub coverage: f64,
-    /// Share of all anchors lost because truth and raster saw different surfaces, 0 to 1.
+    /// Of the pixels of the middle frame, the share that was scored, 0 to 1. Below `coverage`: sky
+    /// and what faces away from the light are pixels too. 0 in a file older than this field.
+    #[serde(default)]
+    pub picture: f64,
+    /// Of the anchors inside the picture, over all frames, the share where truth and raster saw
+    /// different surfaces, 0 to 1.
     pub disagreement: f64,
+    /// Of the anchors inside the picture, over all frames, the share hidden behind something else
+    /// as the camera moves, 0 to 1: parallax, not disagreement. 0 in a file older than this field.
+    #[serde(default)]
+    pub occluded: f64,
     /// Truth's own mean squared error (visibility squared), from its two halves.
     pub reference_noise: f64,
     /// Seconds that truth took; none when it came from the cache.

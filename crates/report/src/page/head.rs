@@ -2,6 +2,7 @@
 
 use crate::Scorecard;
 use crate::numbers::{free_number, percent};
+use crate::words::scored;
 use maud::{Markup, html};
 
 const SECTIONS: [(&str, &str); 7] = [
@@ -46,16 +47,16 @@ fn fact(name: &str, value: Markup) -> Markup {
     html! { div { dt { (name) } dd { (value) } } }
 }
 
-/// The share of the picture that was scored, over windows.
+/// The shares that were scored, over windows.
 fn coverage(card: &Scorecard) -> String {
-    let shares = || card.windows.iter().map(|w| w.coverage);
-    let (low, high) = (shares().fold(f64::INFINITY, f64::min), shares().fold(0.0, f64::max));
-    if card.windows.is_empty() {
-        return "nothing".into();
-    }
+    let Some(scored) = scored(card.windows.iter()) else { return "nothing".into() };
     let lost = card.windows.iter().map(|w| w.disagreement).fold(0.0, f64::max);
-    let range = if low == high { percent(low) } else { format!("{} to {}", percent(low), percent(high)) };
-    format!("{range} of the points (at most {} lost to disagreement)", percent(lost))
+    let pictures = scored.pictures.map(|range| format!("{range} of the pictures: ")).unwrap_or_default();
+    let facing = scored.facing;
+    format!(
+        "{pictures}{facing} of the points that face the light (at most {} lost to disagreement)",
+        percent(lost)
+    )
 }
 
 /// The root of truth's own error, pooled over windows that were scored.

@@ -3,7 +3,7 @@
 use super::columns::has_column;
 use super::table;
 use crate::book::{Book, Shown, Slot};
-use crate::numbers::{Power, count, free_score, number, percent};
+use crate::numbers::{Power, count, free_score_about, number, percent};
 use crate::plot::{Axis, Look, swatch};
 use crate::words::{Comparison, error_caption, plain_line, shadow_caption, swim_caption};
 use crate::{Calibration, Measured, ResultCard, Scorecard};
@@ -17,7 +17,8 @@ pub(super) fn section(card: &Scorecard, book: &Book) -> Markup {
                 "Middle frame of each window. Shadow: black is the umbra, white is fully lit, grey in proportion. Signed "
                 "error: variant minus truth, blue too dark, red too light, one range for the whole page (beyond its ends colours are clamped). Swim map: how much "
                 "each surface point changes while the camera moves. "
-                span.hatch {} " Hatched: not counted (no surface, facing away from the light, or not the same surface in every frame)."
+                span.hatch {} " Hatched: not counted (no surface, facing away from the light, or not the same surface in every frame); "
+                "in a variant's shadow, only where nothing is seen (the sky)."
             }
             label.exact { input type="checkbox" id="exact"; " Never shrink a picture: one screen pixel for each of its own" }
             @for index in 0..card.windows.len() { (window(card, book, index)) }
@@ -71,8 +72,15 @@ fn facts(card: &Scorecard, index: usize) -> Markup {
     html! {
         p.muted {
             @if w.frames == 1 { "Frame " (w.first_frame) } @else { "Frames " (w.first_frame) " to " (last) }
-            " · " (count(w.anchors)) " points in " (count(w.tiles)) " penumbra tiles · " (percent(w.coverage)) " scored, "
-            (percent(w.disagreement)) " lost to disagreement"
+            " · " (count(w.anchors)) " points in " (count(w.tiles)) " penumbra tiles · "
+            @if w.picture > 0.0 { (percent(w.picture)) " of the picture scored, " }
+            (percent(w.coverage)) " of the points that face the light"
+            @if w.occluded > 0.0 {
+                ", " span title="Points times frames in which something nearer hides the point: parallax, not disagreement" {
+                    (percent(w.occluded)) " hidden in some frame"
+                }
+            }
+            ", " (percent(w.disagreement)) " lost to disagreement"
             @match w.truth_secs {
                 Some(secs) => { " · truth took " (number(secs)) " s" }
                 None => " · truth from the cache"
@@ -138,7 +146,7 @@ fn further(card: &Scorecard, window: usize) -> Markup {
     let measured = |id: &str| card.results.iter().any(|r| r.window == window && r.scores.contains_key(id));
     let rows: Vec<_> = card.metrics.iter().filter(|m| !has_column(&m.id) && measured(&m.id)).collect();
     let text = |v: usize, id: &str| match card.result(window, v).and_then(|r| r.scores.get(id)) {
-        Some(Measured::Score(score)) => free_score(*score),
+        Some(Measured::Score(score)) => free_score_about(*score, card.goal(id)),
         Some(Measured::NotMeasured { not_measured }) => not_measured.clone(),
         None => "not measured".into(),
     };

@@ -19,7 +19,7 @@ pub(super) fn section(card: &Scorecard) -> Markup {
                 "column cannot be told apart there."
             }
             div.controls hidden {
-                label { "Filter " input.filter type="search" placeholder="name or technique"; }
+                label { "Filter " input.filter type="search" placeholder="name, document, words" size="24"; }
                 label { input.printed type="checkbox" checked; " as printed" }
                 label {
                     "Relative to "
@@ -54,6 +54,7 @@ pub(super) fn scores(scope: Comparison) -> Markup {
     html! {
         div.wide {
             table.scores {
+                colgroup { col.name; @for _ in 1..width { col; } }
                 thead {
                     tr.groups {
                         th {}
@@ -121,7 +122,7 @@ fn row(scope: Comparison, v: usize, shared: &[Shared]) -> Markup {
     let variant = &scope.card.variants[v];
     let id = scope.window.is_none().then(|| format!("variant-{v}"));
     let costs = scope.window.is_none();
-    let words = format!("{} {}", variant.name, variant.technique);
+    let words = [&variant.name, variant.calibration.label(), &variant.source, &variant.sentence].join(" ");
     html! {
         tbody.variant id=[id] data-variant=(v) data-words=(words) data-calibration=(variant.calibration.label()) {
             tr {
@@ -152,13 +153,14 @@ fn cell(scope: Comparison, v: usize, shared: &Shared) -> Markup {
     let column = shared.column;
     match scope.scores(v).and_then(|s| s.get(column.id)) {
         Some(Measured::Score(score)) => {
-            let (value, half) = shown(*score, shared.power);
+            let (value, interval) = shown(*score, scope.card.goal(column.id), shared.power);
             let exact = format!("{} to {}", free_number(score.low), free_number(score.high));
             html! {
                 td data-value=(score.value) title={ (column.head) " " (free_number(score.value)) ", 95 %: " (exact) } {
                     span.value { (value) }
-                    @if let Some(half) = half { span.half { " ± " (half) } }
                     @if let Some(letters) = scope.group(v, column.id) { sup { (letters) } }
+                    // A line of its own: side by side, values of neighbouring columns would meet.
+                    @if let Some(interval) = interval { span.half { (interval) } }
                     (strip(*score, &shared.axis, column.target))
                 }
             }
@@ -169,12 +171,12 @@ fn cell(scope: Comparison, v: usize, shared: &Shared) -> Markup {
 }
 
 /// A number far below its column's power of ten would be a row of zeros.
-fn shown(score: Score, power: Power) -> (String, Option<String>) {
+fn shown(score: Score, goal: f64, power: Power) -> (String, Option<String>) {
     let size = power.scaled(score.value.abs().max(crate::numbers::half_width(score)));
     if size > 0.0 && size < 0.001 && score.value.abs() > 1e-30 {
         return (if score.value < 0.0 { "−0.001 to 0" } else { "< 0.001" }.into(), None);
     }
-    with_interval(score, power)
+    with_interval(score, goal, power)
 }
 
 fn cost(card: &Scorecard, v: usize) -> Markup {

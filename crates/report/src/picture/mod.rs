@@ -92,8 +92,8 @@ mod tests {
 
     #[test]
     fn what_does_not_count_is_hatched_in_colours_of_no_ramp() {
-        for ramp in [Ramp::Grey, Ramp::Signed, Ramp::Magnitude] {
-            let scale = Scale { ramp, low: 0.0, high: 1.0 };
+        for scale in [Scale::SHADOW, Scale::error(0.2), Scale::magnitude(0.1)] {
+            let ramp = scale.ramp;
             let stripes = [scale.index(f32::NAN, 0, 0), scale.index(f32::NAN, 4, 0)];
             assert_eq!(stripes.map(|i| ramp.palette()[usize::from(i)]), [HATCH[1], HATCH[0]]);
             let ramp_colours = &ramp.palette()[..usize::from(ramp.levels())];

@@ -7,6 +7,11 @@ use maud::{Markup, html};
 /// round again with another shape.
 pub(crate) const COLOURS: usize = 8;
 
+/// Names with a look of their own, whatever else is on the page: a colour means the same technique
+/// on every page. Others come after them, in the order of the scorecard.
+const KNOWN: [&str; 7] =
+    ["hard", "pcf-grid-11", "pcf-vogel-16", "pcf-vogel-16-ign", "chss", "chss-mask", "chss-min"];
+
 /// A variant's look. Both calibrations of a name share colour and shape: light-matched is solid,
 /// as printed is hollow and dashed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +23,7 @@ pub(crate) struct Look {
 impl Look {
     /// The look of a variant of this scorecard.
     pub(crate) fn of(card: &Scorecard, variant: usize) -> Self {
-        let mut names: Vec<&str> = Vec::new();
+        let mut names: Vec<&str> = KNOWN.to_vec();
         for v in &card.variants {
             if !names.contains(&v.name.as_str()) {
                 names.push(&v.name);
@@ -68,5 +73,29 @@ pub(crate) fn swatch(look: Look) -> Markup {
             line class={ "line " (look.class()) } x1="0" y1="6" x2="26" y2="6" {}
             (look.marker(13.0, 6.0, 4.0))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{Device, scorecard};
+
+    #[test]
+    fn a_look_follows_the_name_and_not_the_place() {
+        let mut card = scorecard(Device::Software, (48, 27));
+        let look = |card: &Scorecard, name: &str| {
+            let place = card.variants.iter().position(|v| v.name == name).expect("in the fixture");
+            Look::of(card, place)
+        };
+        let before = look(&card, "chss-min");
+        assert_eq!(before.class(), "c6 matched");
+        card.variants.retain(|v| v.name.starts_with("chss"));
+        card.variants.reverse();
+        card.variants[0].name = "another".into();
+        card.variants[1].name = "one-more".into();
+        assert_eq!(look(&card, "chss-min").name, before.name);
+        assert_eq!(look(&card, "another").class(), "c7 printed");
+        assert_eq!(look(&card, "one-more").name, look(&card, "another").name + 1);
     }
 }

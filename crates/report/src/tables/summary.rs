@@ -1,7 +1,7 @@
 //! `summary.md`: the answer and the table, for a CI step summary or a pull request.
 
 use super::escape::markdown;
-use crate::numbers::free_score;
+use crate::numbers::free_score_about;
 use crate::words::{Comparison, Sentence, Span, answer, plain_line};
 use crate::{Measured, Scorecard};
 
@@ -64,7 +64,7 @@ fn table(card: &Scorecard, most_bytes: usize) -> String {
     for (v, variant) in card.variants.iter().enumerate() {
         let mut cells = vec![markdown(&format!("{} ({})", variant.name, variant.calibration.label()))];
         for (id, _) in COLUMNS {
-            cells.push(cell(all.scores(v).and_then(|s| s.get(id)), all.group(v, id)));
+            cells.push(cell(all.scores(v).and_then(|s| s.get(id)), card.goal(id), all.group(v, id)));
         }
         let cost = card.overall_of(v).and_then(|o| o.cost.as_ref());
         cells.push(cost.map_or_else(|| "–".into(), |c| crate::numbers::number(c.frame_ms_median)));
@@ -78,11 +78,11 @@ fn table(card: &Scorecard, most_bytes: usize) -> String {
     text
 }
 
-fn cell(measured: Option<&Measured>, letters: Option<&str>) -> String {
+fn cell(measured: Option<&Measured>, goal: f64, letters: Option<&str>) -> String {
     match measured {
         Some(Measured::Score(score)) => {
             let letters = letters.map(|l| format!(" {}", markdown(l))).unwrap_or_default();
-            markdown(&free_score(*score)) + &letters
+            markdown(&free_score_about(*score, goal)) + &letters
         }
         Some(Measured::NotMeasured { not_measured }) => markdown(not_measured),
         None => "–".into(),

@@ -25,8 +25,8 @@ pub(crate) fn plain_line(scores: &BTreeMap<String, Measured>) -> String {
         score("mse").and_then(|mse| dominant(&score, mse)),
         score("swimming").map(|s| swims(s, score("mse"))),
         score("width_ratio").map(width),
-        score("light_leak").and_then(|s| share(s, "leaks", "light into the umbra")),
-        score("false_shadow").and_then(|s| share(s, "takes", "of the light from lit surfaces")),
+        score("light_leak").and_then(|s| share(s, ["leaks", "may leak"], "light into the umbra")),
+        score("false_shadow").and_then(|s| share(s, ["takes", "may take"], "of the light from lit surfaces")),
     ];
     let line = parts.into_iter().flatten().collect::<Vec<_>>().join("; ");
     if line.is_empty() { "not measured".into() } else { line }
@@ -72,8 +72,12 @@ fn width(ratio: Score) -> String {
     }
 }
 
-fn share(score: Score, verb: &str, what: &str) -> Option<String> {
-    (score.low > VISIBLE).then(|| format!("{verb} {} {what}", spoken_percent(score.value)))
+/// What is visible for certain, or what may be; nothing when even the upper end is invisible.
+fn share(score: Score, [does, may]: [&str; 2], what: &str) -> Option<String> {
+    if score.low > VISIBLE {
+        return Some(format!("{does} {} {what}", spoken_percent(score.value)));
+    }
+    (score.high > VISIBLE).then(|| format!("{may} up to {} {what}", spoken_percent(score.high)))
 }
 
 #[cfg(test)]
@@ -109,7 +113,12 @@ mod tests {
     fn width_and_leak_obey_their_intervals() {
         assert_eq!(line(&[("width_ratio", 0.91, 0.02)]), "penumbrae 9\u{a0}% too narrow");
         assert_eq!(line(&[("width_ratio", 1.02, 0.03)]), "penumbra width right within its interval");
-        assert_eq!(line(&[("light_leak", 0.012, 0.011)]), "not measured", "may be as low as 0.001");
+        assert_eq!(line(&[("light_leak", 0.001, 0.0009)]), "not measured", "invisible even at its upper end");
+        let unsure = line(&[("light_leak", 0.019_065, 0.017_845), ("false_shadow", 0.001, 0.004)]);
+        assert_eq!(
+            unsure,
+            "may leak up to 4\u{a0}% light into the umbra; may take up to 0.5\u{a0}% of the light from lit surfaces"
+        );
         assert_eq!(line(&[("light_leak", 0.012, 0.002)]), "leaks 1.2\u{a0}% light into the umbra");
     }
 }

@@ -2,6 +2,7 @@
 
 mod caption;
 mod compare;
+mod coverage;
 mod headline;
 mod line;
 mod sentences;
@@ -11,6 +12,7 @@ mod tests;
 
 pub(crate) use caption::{error_caption, shadow_caption, swim_caption};
 pub(crate) use compare::{Comparison, is_still, is_unresolved};
+pub(crate) use coverage::scored;
 pub(crate) use line::plain_line;
 pub(crate) use sentences::answer;
 pub(crate) use span::{Sentence, Span, full_name};

@@ -3,8 +3,8 @@
 //! Nothing is claimed that an interval does not carry; "could not be told apart" is an answer.
 
 use super::{Comparison, Sentence, is_still, is_unresolved};
-use crate::Scorecard;
 use crate::numbers::{free_number, free_score, number, percent};
+use crate::{Scorecard, WindowCard};
 use umbrage_metrics::Score;
 
 /// Budgets that the cost sentence goes through, milliseconds a frame.
@@ -199,13 +199,10 @@ fn start_of_dear(all: Comparison, priced: &[(usize, f64)]) -> Sentence {
 /// How far the page can be trusted.
 fn trust(all: Comparison) -> Sentence {
     let windows: Vec<_> = all.card.windows.iter().filter(|w| w.anchors > 0).collect();
-    let least = windows.iter().map(|w| w.coverage).fold(f64::INFINITY, f64::min);
     let noise = windows.iter().map(|w| w.reference_noise).sum::<f64>() / windows.len() as f64;
     let root = noise.max(0.0).sqrt();
-    let start = Sentence::default().text("At least ").number(percent(least));
-    let scored =
-        start.text(" of the surface points of every scored view count; ").section("provenance", "truth");
-    let noisy = scored.text("'s own noise is ").number(free_number(root));
+    let start = covered(&windows).section("provenance", "truth");
+    let noisy = start.text("'s own noise is ").number(free_number(root));
     match all.ranked("error").first() {
         Some((_, lowest)) if lowest.low > 0.0 => {
             let share = percent(root / lowest.value);
@@ -213,4 +210,16 @@ fn trust(all: Comparison) -> Sentence {
         }
         _ => noisy.text(" RMS, and is not counted as error."),
     }
+}
+
+/// What was scored, of the pictures and of what could be scored at all: the larger number alone
+/// would hide the sky and everything that faces away from the light.
+fn covered(windows: &[&WindowCard]) -> Sentence {
+    let Some(scored) = super::scored(windows.iter().copied()) else { return Sentence::default() };
+    let start = Sentence::default().text("Scores cover ");
+    let start = match scored.pictures {
+        Some(pictures) => start.number(pictures).text(" of the pictures: "),
+        None => start,
+    };
+    start.number(scored.facing).text(" of the surface points that face the light; ")
 }

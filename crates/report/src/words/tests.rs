@@ -145,3 +145,34 @@ fn the_document_s_own_comparison_is_answered_claim_by_claim() {
     assert!(said.contains("\": cannot be resolved on"), "{said}");
     assert!(said.contains("\"The mask has the lower ERROR\": holds on"), "{said}");
 }
+
+#[test]
+fn the_planned_comparison_is_not_corrected_for_the_others() {
+    let mut card = headline_card(score(4e-5, 2e-5), score(-0.03, 0.01));
+    for pair in &mut card.paired {
+        pair.resolved = false;
+    }
+    let said = say(&card);
+    assert!(said.contains("swims less than chss-mask (light-matched)\": holds on"), "{said}");
+    assert!(said.contains("\"The mask has the lower ERROR\": holds on"), "{said}");
+    let mut card = headline_card(score(4e-5, 5e-5), score(-0.03, 0.01));
+    for pair in &mut card.paired {
+        pair.resolved = true;
+    }
+    assert!(say(&card).contains("\": cannot be resolved on"), "its own interval decides");
+}
+
+#[test]
+fn both_shares_of_coverage_are_said() {
+    let mut card = scorecard(Device::Software, (48, 27));
+    card.windows[0].picture = 0.45;
+    card.windows[0].coverage = 0.737;
+    let both = "Scores cover 45.0\u{a0}% to 80.5\u{a0}% of the pictures: 73.7\u{a0}% to 94.7\u{a0}% of the \
+                surface points that face the light; truth";
+    assert!(say(&card).contains(both), "{}", say(&card));
+    for window in &mut card.windows {
+        window.picture = 0.0;
+    }
+    let older = "Scores cover 73.7\u{a0}% to 94.7\u{a0}% of the surface points that face the light; truth";
+    assert!(say(&card).contains(older), "{}", say(&card));
+}
