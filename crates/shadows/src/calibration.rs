@@ -50,7 +50,7 @@ impl Calibration {
                 receiver_plane: ReceiverPlane::Off,
             },
             // f32 depth loses micrometres over tens of metres; 1 mm is the engines' usual constant.
-            // Half a texel and 79 degrees were measured best on three scenes: docs/decisions/0002.
+            // Half a texel and 79 degrees are a compromise measured on three scenes: docs/decisions/0002.
             Self::LightMatched => Bias {
                 constant: ConstantBias::World(0.001),
                 normal_offset_texels: 0.5,
