@@ -73,6 +73,9 @@ pub(crate) fn pareto(card: &Scorecard) -> Option<Markup> {
                 }
             }
             @for label in &labels {
+                @if (label.y - label.dot.1).abs() > 20.0 {
+                    line.grid x1=(p(label.dot.0)) y1=(p(label.dot.1)) x2=(p(label.x)) y2=(p(label.y)) {}
+                }
                 text.label x=(p(label.x)) y=(p(label.y + 4.0)) text-anchor=(label.anchor) { (label.text) }
             }
         }
@@ -141,7 +144,7 @@ fn labels(
         }
         let width = 6.6 * text.chars().count() as f64;
         let right = (whisker(q).max(x + r) + 5.0, y, "start");
-        let candidates = [
+        let mut candidates = vec![
             right,
             (x - r - 5.0, y, "end"),
             (x, y - r - 9.0, "middle"),
@@ -149,6 +152,15 @@ fn labels(
             (x + r + 3.0, y - 11.0, "start"),
             (x + r + 3.0, y + 12.0, "start"),
         ];
+        // Farther away, tied to its dot by a line.
+        for step in 2..8 {
+            let away = 13.0 * f64::from(step);
+            candidates.extend([
+                (x + 8.0, y - away, "start"),
+                (x + 8.0, y + away, "start"),
+                (x - 8.0, y - away, "end"),
+            ]);
+        }
         let frame = |&(x, y, anchor): &(f64, f64, &str)| {
             let left = match anchor {
                 "start" => x,

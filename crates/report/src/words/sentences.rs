@@ -158,7 +158,7 @@ fn cost(all: Comparison) -> Sentence {
         let reason = notes.map_or("needs a GPU", |n| n.trim_start_matches("not a cost: "));
         return start.section("cost", "Cost").text(format!(" was not measured: {reason}."));
     }
-    let mut sentence = start.text("By ").section("cost", "cost").text(": ");
+    let mut sentence = start.text("By ").section("cost", "cost").text(" (the 95th percentile of a frame): ");
     let mut chosen: Option<usize> = None;
     for budget in BUDGETS_MS {
         // `priced` is in order of ERROR: the first that fits is the most faithful that fits.
