@@ -13,7 +13,7 @@ pub(crate) struct Arguments {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 pass (warnings allowed), 1 regression or a threshold failed, 2 usage, \
-3 not comparable, 4 input, file or GPU failure, 5 no baseline, 130 interrupted.";
+3 not comparable (or nothing that truth and raster both see), 4 input, file or GPU failure, 5 no baseline, 130 interrupted.";
 
 #[derive(Subcommand, Debug)]
 pub(crate) enum Command {

@@ -16,8 +16,9 @@ type Extras = BTreeMap<String, Measurement>;
 
 /// Frames and seeds of the runs that tell how noise is anchored: each of thousands of points gives
 /// a product per pair of frames.
-const PATTERN_FRAMES: usize = 4;
-const PATTERN_SEEDS: u32 = 2;
+pub(super) const PATTERN_FRAMES: usize = 4;
+/// See `PATTERN_FRAMES`.
+pub(super) const PATTERN_SEEDS: u32 = 2;
 
 /// From the anchored panel: tails, widths, levels, the colour of the noise and its spectrum.
 pub(super) fn of_panel(

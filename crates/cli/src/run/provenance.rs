@@ -1,6 +1,7 @@
 //! Everything needed to run it again, in the scorecard's words.
 
 use super::Settings;
+use super::extras::{PATTERN_FRAMES, PATTERN_SEEDS};
 use super::window::PIXEL_SAMPLES;
 use crate::suite::Plan;
 use umbrage_frame::AgreementLimits;
@@ -68,6 +69,11 @@ fn notes(plan: &Plan, settings: &Settings) -> Vec<String> {
             viewing.pixels_per_degree, viewing.exposure_stops
         ),
     ];
+    notes.push(format!(
+        "lag-1 correlations: {} frames and {} seeds of frozen and of animated patterns",
+        PATTERN_FRAMES.min(plan.window as usize),
+        PATTERN_SEEDS
+    ));
     if let Some(bias) = settings.bias {
         notes.push(format!("the bias of all variants was replaced: {}", bias.describe()));
     }
