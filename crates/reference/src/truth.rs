@@ -53,7 +53,8 @@ pub struct GroundTruth {
     pub halves: [Vec<f32>; 2],
     /// A third independent estimate; empty when none was asked for.
     pub basis: Vec<f32>,
-    /// Of `mean`: unbiased, from the spread of the replicates; 0 where the value is exact.
+    /// Of `mean`: unbiased, from the spread of the replicates; 0 where all of them agree, which is nearly always but not
+    /// always exact.
     pub variance: Vec<f32>,
     /// Samples that `mean` is made of, at each point.
     pub samples: u32,
