@@ -35,7 +35,8 @@ impl Cells {
     }
 }
 
-/// Pools windows (the mean of each window's value) and puts intervals on everything; tiles are
+/// Pools windows (the mean of each window's value; leaks, false shadow and the outside share over all
+/// points) and puts intervals on everything; tiles are
 /// resampled within each window.
 ///
 /// # Errors

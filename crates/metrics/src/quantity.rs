@@ -126,10 +126,12 @@ impl Quantity {
         }
     }
 
-    /// The quantity of these windows' sums: the mean over windows of each window's value. NaN where
+    /// The quantity of these windows' sums: the mean over windows of each window's value, or
+    /// for what lies outside the penumbra the value of all windows' points together. NaN where
     /// no window has points of its region.
     pub(crate) fn value(self, windows: &[Vec<f64>]) -> f64 {
         let mean = |slots: &[usize]| self.mean(windows, slots);
+        let total = |slot: usize| windows.iter().map(|w| w[slot]).sum::<f64>();
         match self {
             Self::Error => mean(&[SQUARED]).max(0.0).sqrt(),
             Self::Mse => mean(&[SQUARED]),
@@ -140,12 +142,10 @@ impl Quantity {
             Self::SmoothMoving => mean(&[SMOOTH_MOVING]),
             Self::StructuredStatic => mean(&[STRUCTURED_STATIC]),
             Self::StructuredMoving => mean(&[STRUCTURED_MOVING]),
-            Self::LightLeak => mean(&[LEAK]),
-            Self::FalseShadow => mean(&[FALSE_SHADOW]),
-            Self::OutsideShare => {
-                let sum = |slot: usize| windows.iter().map(|w| w[slot]).sum::<f64>();
-                sum(OUTSIDE) / (sum(OUTSIDE) + sum(SQUARED))
-            }
+            // Over all points: a window whose umbra is seven pixels must not outweigh the others.
+            Self::LightLeak => total(LEAK) / total(UMBRA),
+            Self::FalseShadow => total(FALSE_SHADOW) / total(LIT),
+            Self::OutsideShare => total(OUTSIDE) / (total(OUTSIDE) + total(SQUARED)),
             Self::VonNeumann => mean(&[SUCCESSIVE]) / (2.0 * mean(&[SMOOTH_MOVING, STRUCTURED_MOVING])),
             Self::ReferenceNoise => mean(&[REFERENCE]),
             Self::BasisShare => mean(&[FUNCTIONS]),
