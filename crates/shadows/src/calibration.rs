@@ -85,25 +85,111 @@ impl Bias {
     }
 }
 
-/// The slots that light, calibration and bias fill, with the constants they need.
-pub(crate) fn slots(inputs: &Inputs<'_>) -> (Vec<Fragment>, Vec<(&'static str, f64)>) {
-    let light = match inputs.light.kind {
-        LightKind::Sun => shader::LIGHT_SUN,
-        LightKind::Local => shader::LIGHT_LOCAL,
-    };
-    let law = match inputs.calibration {
-        Calibration::AsPrinted => shader::LAW_SQUARED,
-        Calibration::LightMatched => shader::LAW_LIGHT,
+/// How wide a penumbra is for depths of receiver and blocker.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Law {
+    /// As printed: listing 4 of the first document. Light-matched: the true light's cone.
+    #[default]
+    Standard,
+    /// ((z - b) / b)^2 in both calibrations.
+    Squared,
+    /// (z - b) / b.
+    Linear,
+    /// (z - b) / z: the width at the blocker's plane.
+    Plane,
+    /// z - b.
+    Distance,
+    /// (z - b) / b in depths that count from a near plane.
+    Depth01,
+    /// The second document's point light.
+    Point,
+}
+
+/// Ratio (z - b) / b from which listing 4's kernel no longer grows: other laws reach the same size
+/// there, as printed.
+const PRINTED_SATURATION: f64 = 0.111_803_398_874_989_5;
+
+impl Law {
+    /// The fragment of the shape, for laws that have one.
+    fn shape(self) -> Option<Fragment> {
+        match self {
+            Self::Standard | Self::Point => None,
+            Self::Squared => Some(shader::SHAPE_SQUARED),
+            Self::Linear => Some(shader::SHAPE_LINEAR),
+            Self::Plane => Some(shader::SHAPE_PLANE),
+            Self::Distance => Some(shader::SHAPE_DISTANCE),
+            Self::Depth01 => Some(shader::SHAPE_DEPTH01),
+        }
+    }
+
+    /// The shape's value.
+    fn value(self, z: f64, b: f64, near: f64) -> f64 {
+        let gap = (z - b).max(0.0);
+        match self {
+            Self::Standard | Self::Point | Self::Linear => gap / b,
+            Self::Squared => (gap / b).powi(2),
+            Self::Plane => gap / z,
+            Self::Distance => gap,
+            Self::Depth01 => gap / (b - 0.999 * near).max(1e-6),
+        }
+    }
+
+    /// Whether kernels end at the search radius: where the document says so.
+    fn is_capped(self) -> bool {
+        matches!(self, Self::Squared | Self::Distance)
+    }
+
+    /// Fragments and constants.
+    fn fragments(self, inputs: &Inputs<'_>) -> (Vec<Fragment>, Vec<(&'static str, f64)>) {
+        let printed = inputs.calibration == Calibration::AsPrinted;
+        let Some(shape) = self.shape() else {
+            return match (self, printed) {
+                (Self::Point, true) => (vec![shader::LAW_CUBE], vec![]),
+                (_, true) => (vec![shader::LAW_SQUARED], vec![("FILTER_RADIUS_UV", PRINTED_RADIUS_UV)]),
+                (_, false) => (vec![shader::LAW_LIGHT], vec![]),
+            };
+        };
+        let search = if printed { PRINTED_RADIUS_UV } else { 0.0 };
+        let constants = vec![
+            ("LAW_SCALE", self.scale(inputs.light, printed)),
+            ("LAW_SEARCH_UV", search),
+            ("LAW_CAP", if self.is_capped() { 1.0 } else { 1e9 }),
+        ];
+        (vec![shader::LAW_SCALED, shape], constants)
+    }
+
+    /// As printed: the demo's largest kernel where listing 4 reaches it. Light-matched: the true
+    /// kernel for a receiver at the region's centre and a blocker at the reference gap.
+    pub(crate) fn scale(self, light: &LightMap, printed: bool) -> f64 {
+        let (z, near) = (f64::from(light.eye_distance), f64::from(light.nearest_blocker));
+        if printed {
+            let b = z / (1.0 + PRINTED_SATURATION);
+            return PRINTED_RADIUS_UV / self.value(z, b, near);
+        }
+        let b = (z - f64::from(light.reference_gap)).max(near);
+        f64::from(light.true_radius_uv(z as f32, b as f32)) / self.value(z, b, near).max(1e-12)
+    }
+}
+
+/// The slots that light, calibration, law and bias fill, with the constants they need.
+pub(crate) fn slots(inputs: &Inputs<'_>, law: Law) -> (Vec<Fragment>, Vec<(&'static str, f64)>) {
+    let mut fragments = match inputs.light.kind {
+        LightKind::Sun => vec![shader::LIGHT_SUN, shader::TAP],
+        LightKind::Local => vec![shader::LIGHT_LOCAL, shader::TAP],
+        LightKind::Cube => vec![shader::LIGHT_CUBE, shader::TAP_CUBE, shader::CUBE_FACES],
     };
     let (bias, max_slope) = match inputs.bias.receiver_plane {
         ReceiverPlane::Off => (shader::BIAS_CONSTANT, 0.0),
         ReceiverPlane::On { max_slope } => (shader::BIAS_RECEIVER_PLANE, max_slope),
     };
-    let constants = vec![
+    let mut constants = vec![
         ("NORMAL_OFFSET_TEXELS", inputs.bias.normal_offset_texels),
         ("MAX_SLOPE", max_slope),
         ("CONSTANT_BIAS_WORLD", inputs.bias.constant_world(inputs.light)),
-        ("FILTER_RADIUS_UV", PRINTED_RADIUS_UV),
     ];
-    (vec![light, law, bias], constants)
+    let (of_law, scaled) = law.fragments(inputs);
+    fragments.extend(of_law);
+    constants.extend(scaled);
+    fragments.push(bias);
+    (fragments, constants)
 }

@@ -40,6 +40,18 @@ pub enum ShadowError {
         /// What the adapter allows.
         limit: u64,
     },
+    /// A technique asked for a light that it cannot do.
+    #[error("{variant} cannot do {light}: it does {wants} only\n  help: these can: {able}")]
+    WrongLight {
+        /// The variant.
+        variant: String,
+        /// "a sun", "a light that has a place".
+        light: &'static str,
+        /// What it can do.
+        wants: &'static str,
+        /// Names of variants that can do this light.
+        able: String,
+    },
     /// A shader or pass that the driver or its validation refused.
     #[error("the graphics driver refused the work: {0}")]
     Gpu(String),

@@ -1,7 +1,7 @@
 //! What a scorecard says about kernels, in the words that several techniques share.
 
 use crate::Calibration;
-use crate::calibration::PRINTED_RADIUS_UV;
+use crate::calibration::{Law, PRINTED_RADIUS_UV};
 
 /// How far a technique looks for blockers and how wide it filters, in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,6 +23,27 @@ impl Kernels {
     /// Of a filter on a disc that widens with the blocker's distance.
     pub(crate) fn hardening(calibration: Calibration, search_radius: String, kernel: String) -> Self {
         Self { search_radius, kernel, cap: calibration.largest_radius(), radius_convention: DISC.into() }
+    }
+
+    /// Of a fixed number of texels.
+    pub(crate) fn texels(kernel: &str) -> Self {
+        Self {
+            search_radius: "none".into(),
+            kernel: kernel.into(),
+            cap: kernel.into(),
+            radius_convention: "none: a texel is a square of the map".into(),
+        }
+    }
+
+    /// Of the second document's point light, as printed, without a search.
+    pub(crate) fn point_light() -> Self {
+        let kernel = "a disc of the light's own radius at the receiver, square to the ray from the light";
+        Self {
+            search_radius: "none".into(),
+            kernel: kernel.into(),
+            cap: "the same everywhere".into(),
+            radius_convention: DISC.into(),
+        }
     }
 
     /// Of a filter on a disc that knows no blocker.
@@ -57,5 +78,39 @@ impl Calibration {
             Self::AsPrinted => self.largest_radius(),
             Self::LightMatched => "the light's cone at the scene's reference gap".into(),
         }
+    }
+}
+
+impl Law {
+    /// What it is, in a few words.
+    pub(crate) fn describe(self) -> &'static str {
+        match self {
+            Self::Standard => "standard law of the calibration",
+            Self::Squared => "squared law",
+            Self::Linear => "linear law",
+            Self::Plane => "blocker-plane law",
+            Self::Distance => "distance law",
+            Self::Depth01 => "linear law in depths from the near plane",
+            Self::Point => "point-light law",
+        }
+    }
+
+    /// The law slot's `kernel_radius_uv`, in words.
+    pub(crate) fn kernel(self, calibration: Calibration, blocker: &str) -> String {
+        let shape = match self {
+            Self::Standard => return calibration.radius_for(blocker),
+            Self::Squared if calibration == Calibration::AsPrinted => return calibration.radius_for(blocker),
+            Self::Point => return format!("light's radius x (z - b) / b at the receiver, b = {blocker}"),
+            Self::Squared => "((z - b) / b)^2",
+            Self::Linear => "(z - b) / b",
+            Self::Plane => "(z - b) / z",
+            Self::Distance => "(z - b)",
+            Self::Depth01 => "(z - b) / b in depths from a near plane at the nearest geometry",
+        };
+        let scale = match calibration {
+            Calibration::AsPrinted => format!("{PRINTED_RADIUS_UV} map widths where (z - b) / b = .112"),
+            Calibration::LightMatched => "the light's cone at the scene's reference gap".into(),
+        };
+        format!("{shape} scaled to {scale}, b = {blocker}")
     }
 }

@@ -34,6 +34,14 @@ pub struct Globals {
     pub pattern_frame: u32,
     /// The pattern's seed.
     pub pattern_seed: u32,
+    /// Number of the frame, for what alternates from frame to frame.
+    pub frame_index: u32,
+    /// Depth of the shadow region's centre, metres.
+    pub eye_distance: f32,
+    /// Depth of the map's far plane, metres.
+    pub far: f32,
+    /// Side of one face of a cube map in texels; 0 for a single map.
+    pub face_size: u32,
 }
 
 /// Twin of `Anchor` in `wgsl/receiver_anchor.wgsl`.
@@ -85,7 +93,11 @@ mod tests {
             nearest_blocker,
             reference_gap,
             pattern_frame,
-            pattern_seed
+            pattern_seed,
+            frame_index,
+            eye_distance,
+            far,
+            face_size
         );
         assert_eq!((members, span as usize), (rust, size_of::<Globals>()));
     }

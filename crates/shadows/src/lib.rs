@@ -3,6 +3,7 @@
 //! A technique writes a [`Recording`], plain data; only `gpu` knows wgpu. Nothing here knows the
 //! ground truth: the pipeline rasterises its own depth, so that a wrong matrix shows.
 
+mod blue_noise;
 mod calibration;
 mod error;
 mod gpu;
@@ -27,6 +28,7 @@ pub use recording::{Binding, ComputePass, Format, Pass, RasterPass, Recording, T
 pub use renderer::{Dump, Renderer, Shaded};
 pub use shader::{Fragment, fragments};
 pub use technique::{
-    Calibration, Info, Inputs, Receivers, Seeding, Technique, Variant, VariantId, select_variants,
+    Calibration, Info, Inputs, Lights, Projection, Receivers, Seeding, Technique, Variant, VariantId,
+    select_variants,
 };
 pub use techniques::VARIANTS;

@@ -1,7 +1,9 @@
 //! The shadow map's projection: orthographic for a sun, perspective for a light that has a place.
 
-use crate::map_depths::{Pyramid, over_square};
+use crate::Projection;
+use crate::map_depths::{Pyramid, distances, over_square};
 use glam::{Mat4, Vec3};
+use std::f32::consts::FRAC_PI_2;
 use umbrage_scene::{AreaLight, Scene, ShadowRegion};
 
 /// Which of the two projections.
@@ -11,6 +13,8 @@ pub enum LightKind {
     Sun,
     /// Perspective.
     Local,
+    /// Six perspective faces; depth is the distance from the light.
+    Cube,
 }
 
 /// How the light sees the world.
@@ -24,7 +28,7 @@ pub struct LightMap {
     pub clip_from_world: Mat4,
     /// Side in texels.
     pub texels: u32,
-    /// Sun: map widths per metre. Local: map widths per unit of slope.
+    /// Sun: map widths per metre. Local: map widths per unit of slope. Cube: 1.
     pub scale: f32,
     /// Sun: tangent of the angular radius. Local: radius in metres (disc of equal area).
     pub light_size: f32,
@@ -43,11 +47,58 @@ pub struct LightMap {
 const MAX_HALF_ANGLE: f32 = 60.0 * std::f32::consts::PI / 180.0;
 
 impl LightMap {
-    /// Fits the map to the scene's shadow region.
+    /// Fits one map to the scene's shadow region.
     pub fn new(scene: &Scene, light: &AreaLight, texels: u32) -> Self {
-        match light.centre() {
-            None => Self::sun(scene, light, texels),
-            Some(centre) => Self::local(scene, light, centre, texels),
+        Self::with(scene, light, (texels, Projection::Single))
+    }
+
+    /// Fits a map of this layout. A sun has no cube: it gets a single map.
+    pub fn with(scene: &Scene, light: &AreaLight, (texels, projection): (u32, Projection)) -> Self {
+        let fit = |scene: &Scene| match (light.centre(), projection) {
+            (None, _) => Self::sun(scene, light, texels),
+            (Some(centre), Projection::Cube) => Self::cube(scene, light, centre, texels),
+            (Some(centre), _) => Self::local(scene, light, centre, texels),
+        };
+        let single = fit(scene);
+        if projection != Projection::Guarded {
+            return single;
+        }
+        let mut wider = scene.shadow_region;
+        wider.width_world += 2.0 * single.largest_penumbra_world();
+        fit(&Scene { shadow_region: wider, ..scene.clone() })
+    }
+
+    /// Radius of the largest kernel, in metres at the region's centre: the light's cone from there
+    /// to the nearest geometry.
+    fn largest_penumbra_world(&self) -> f32 {
+        let gap = (self.eye_distance - self.nearest_blocker).max(0.0);
+        match self.kind {
+            LightKind::Sun => gap * self.light_size,
+            LightKind::Local | LightKind::Cube => self.light_size * gap / self.nearest_blocker.max(1e-4),
+        }
+    }
+
+    /// Radius of the light's cone from a receiver at depth `z` where it passes depth `b`, in map
+    /// widths there: the twin of the `light` slot's `true_radius_uv`.
+    pub(crate) fn true_radius_uv(&self, z: f32, b: f32) -> f32 {
+        let gap = (z - b).max(0.0);
+        match self.kind {
+            LightKind::Sun => gap * self.light_size * self.scale,
+            LightKind::Local | LightKind::Cube => self.light_size * gap / (z * b.max(1e-4)) * self.scale,
+        }
+    }
+
+    /// Texels of one side of a cube's face; 0 for a single map. Six of half the single map's side
+    /// take half as much memory again.
+    pub fn face_texels(&self) -> u32 {
+        if self.kind == LightKind::Cube { (self.texels / 2).max(1) } else { 0 }
+    }
+
+    /// Texels of the whole map: a cube's faces lie in a texture, three by two.
+    pub fn size(&self) -> [u32; 2] {
+        match self.face_texels() {
+            0 => [self.texels; 2],
+            face => [3 * face, 2 * face],
         }
     }
 
@@ -110,10 +161,34 @@ impl LightMap {
         }
     }
 
+    /// A map in every direction. Radii are tangents of angles seen from the light: `scale` is 1.
+    fn cube(scene: &Scene, light: &AreaLight, eye: Vec3, texels: u32) -> Self {
+        let ShadowRegion { centre, reference_gap_world, .. } = scene.shadow_region;
+        let distance = (centre - eye).length().max(1e-3);
+        let range = distances(&scene.geometry, eye);
+        let far = range.1.max(distance) * 1.01 + 0.01;
+        let light_from_world = Mat4::from_translation(-eye);
+        let near = 1e-3 * distance;
+        // A face's own projection; the raster pass turns the world before it.
+        let projection = glam::camera::rh::proj::directx::perspective(FRAC_PI_2, 1.0, near, far);
+        Self {
+            kind: LightKind::Cube,
+            light_from_world,
+            clip_from_world: projection * light_from_world,
+            texels,
+            scale: 1.0,
+            light_size: light.radius_world().unwrap_or(0.0),
+            nearest_blocker: range.0.clamp(near, far),
+            far,
+            eye_distance: distance,
+            reference_gap: reference_gap_world,
+        }
+    }
+
     /// Identifies the map's contents together with the geometry's own hash.
     pub(crate) fn key(&self) -> u64 {
         let floats = self.clip_from_world.to_cols_array();
-        let seed = 0xcbf2_9ce4_8422_2325u64 ^ u64::from(self.texels);
+        let seed = 0xcbf2_9ce4_8422_2325u64 ^ u64::from(self.texels) ^ (self.kind as u64) << 40;
         floats.iter().fold(seed, |hash, f| (hash ^ u64::from(f.to_bits())).wrapping_mul(0x0100_0000_01b3))
     }
 
@@ -122,6 +197,8 @@ impl LightMap {
         let width = match self.kind {
             LightKind::Sun => 1.0 / self.scale,
             LightKind::Local => self.eye_distance / self.scale,
+            // A face spans the tangents from -1 to 1.
+            LightKind::Cube => return 2.0 * self.eye_distance / self.face_texels() as f32,
         };
         width / self.texels as f32
     }

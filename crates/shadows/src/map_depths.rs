@@ -19,6 +19,33 @@ pub(crate) fn over_square(
     })
 }
 
+/// Least and largest distance of any surface from a point, in metres. The least is that of a point
+/// inside a triangle, not of a corner.
+pub(crate) fn distances(geometry: &Geometry, from: Vec3) -> (f32, f32) {
+    let all = (0..geometry.triangles.len()).map(|triangle| geometry.corners(triangle));
+    all.fold((f32::INFINITY, 0f32), |(near, far), corners| {
+        let [a, b, c] = corners.map(|p| p - from);
+        let farthest = a.length().max(b.length()).max(c.length());
+        (near.min(distance_to_triangle(a, b, c)), far.max(farthest))
+    })
+}
+
+/// Distance from the origin to a triangle: to its plane where the foot lies inside, otherwise to the
+/// nearest edge.
+fn distance_to_triangle(a: Vec3, b: Vec3, c: Vec3) -> f32 {
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let inside = |from: Vec3, to: Vec3| normal.dot((to - from).cross(-from)) >= 0.0;
+    if normal != Vec3::ZERO && inside(a, b) && inside(b, c) && inside(c, a) {
+        return normal.dot(a).abs();
+    }
+    let to_edge = |from: Vec3, to: Vec3| {
+        let along = to - from;
+        let part = (-from.dot(along) / along.length_squared().max(1e-30)).clamp(0.0, 1.0);
+        (from + along * part).length()
+    };
+    to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
+}
+
 /// The pyramid that a map sees, in light space.
 pub(crate) struct Pyramid {
     /// A point is inside where the product with each is not negative: the near plane, four sides.

@@ -2,7 +2,7 @@
 
 use crate::layout::{Anchor, Vertex};
 use crate::{Bias, Gpu, Info, Inputs, Kernels, LightMap, Recording, Seeding, ShadowError, Timing, VariantId};
-use crate::{Receivers, stages};
+use crate::{Projection, Receivers, VARIANTS, stages};
 use glam::Vec3;
 use umbrage_frame::{Anchors, Gbuffer, Image, View};
 use umbrage_scene::{AreaLight, Scene};
@@ -13,8 +13,9 @@ pub struct Renderer<'a> {
     scene: &'a Scene,
     map_texels: u32,
     geometry_key: u64,
-    light_map: Option<(AreaLight, LightMap)>,
+    light_maps: Vec<(AreaLight, Projection, LightMap)>,
     bias: Option<Bias>,
+    past: Vec<View>,
 }
 
 /// A variant's answer at each receiver.
@@ -31,6 +32,8 @@ pub struct Shaded {
 pub struct Dump {
     /// `shadow-map`, `penumbra-mask`, ...
     pub label: &'static str,
+    /// Level of a texture that has several; 0 is the finest.
+    pub level: u32,
     /// One image a channel.
     pub channels: Vec<Image<f32>>,
 }
@@ -60,7 +63,15 @@ impl<'a> Renderer<'a> {
         }
         let vertices = flat_vertices(scene);
         let geometry_key = gpu.upload_scene(&vertices)?;
-        Ok(Self { gpu, scene, map_texels, geometry_key, light_map: None, bias: None })
+        Ok(Self {
+            gpu,
+            scene,
+            map_texels,
+            geometry_key,
+            light_maps: Vec::new(),
+            bias: None,
+            past: Vec::new(),
+        })
     }
 
     /// Replaces the calibrations' own bias, for curves over it.
@@ -68,21 +79,32 @@ impl<'a> Renderer<'a> {
         self.bias = Some(bias);
     }
 
+    /// Where the camera was in the frames before the next one, newest first: for techniques with a
+    /// history. Without any, it stood still.
+    pub fn set_past(&mut self, views: Vec<View>) {
+        self.past = views;
+    }
+
     /// Lets go of kept maps, so that the next frame renders (and times) them again.
     pub fn forget(&mut self) {
         self.gpu.forget();
     }
 
-    /// The projection of the light's map.
+    /// The projection of the light's single map.
     pub fn light_map(&mut self, light: &AreaLight) -> LightMap {
-        match self.light_map {
-            Some((of, map)) if of == *light => map,
-            _ => {
-                let map = LightMap::new(self.scene, light, self.map_texels);
-                self.light_map = Some((*light, map));
-                map
-            }
+        self.light_map_of(light, Projection::Single)
+    }
+
+    fn light_map_of(&mut self, light: &AreaLight, projection: Projection) -> LightMap {
+        let known = self.light_maps.iter().find(|(of, laid, _)| of == light && *laid == projection);
+        if let Some((.., map)) = known {
+            return *map;
         }
+        // A light that moves would fill the list.
+        self.light_maps.retain(|(of, ..)| of == light);
+        let map = LightMap::with(self.scene, light, (self.map_texels, projection));
+        self.light_maps.push((*light, projection, map));
+        map
     }
 
     /// Sets the surface points that `shade_anchors` shades.
@@ -189,6 +211,8 @@ impl<'a> Renderer<'a> {
             receivers: Receivers::Frame,
             seeding: Seeding::Frozen,
             geometry_key: self.geometry_key,
+            past: &[],
+            age: 0,
         };
         let mut recording = Recording::new(inputs.globals(0, 0));
         stages::depth_prepass(&mut recording, &inputs);
@@ -203,7 +227,10 @@ impl<'a> Renderer<'a> {
     /// Too large a picture.
     fn record(&mut self, job: &Job<'_>, light: &AreaLight) -> Result<Recording, ShadowError> {
         self.check_size(job.view)?;
-        let map = self.light_map(light);
+        job.variant.check_light(light)?;
+        let technique = job.variant.variant.technique;
+        let map = self.light_map_of(light, technique.projection());
+        self.check_map(&map)?;
         let inputs = Inputs {
             view: job.view,
             light: &map,
@@ -212,11 +239,25 @@ impl<'a> Renderer<'a> {
             receivers: job.receivers,
             seeding: job.seeding,
             geometry_key: self.geometry_key,
+            past: &self.past,
+            age: 0,
         };
-        let [frame, seed] = job.pattern;
-        let mut recording = Recording::new(inputs.globals(frame, seed));
-        job.variant.variant.technique.record(&mut recording, &inputs);
+        let mut recording = inputs.recording(job.pattern, technique.history());
+        technique.record(&mut recording, &inputs);
         Ok(recording)
+    }
+
+    /// A cube's faces lie in one texture, wider than a single map.
+    fn check_map(&self, map: &LightMap) -> Result<(), ShadowError> {
+        let (limit, [width, _]) = (self.gpu.largest_texture(), map.size());
+        if width > limit {
+            return Err(ShadowError::TooLarge {
+                what: "a cube map",
+                wanted: width.into(),
+                limit: limit.into(),
+            });
+        }
+        Ok(())
     }
 
     fn check_size(&self, view: &View) -> Result<(), ShadowError> {
@@ -239,6 +280,24 @@ impl VariantId {
         self.variant.technique.info()
     }
 
+    /// Whether the technique can do a light.
+    ///
+    /// # Errors
+    /// `WrongLight`, with the names of those that can.
+    pub fn check_light(&self, light: &AreaLight) -> Result<(), ShadowError> {
+        let lights = self.variant.technique.lights();
+        if lights.contain(light) {
+            return Ok(());
+        }
+        let able = VARIANTS.iter().filter(|v| v.technique.lights().contain(light)).map(|v| v.name);
+        Err(ShadowError::WrongLight {
+            variant: self.name(),
+            light: if light.centre().is_some() { "a light that has a place" } else { "a sun" },
+            wants: lights.describe(),
+            able: able.collect::<Vec<_>>().join(", "),
+        })
+    }
+
     /// Passes of one frame, in order (those of a static light's map first).
     pub fn passes(&self, scene: &Scene) -> Vec<&'static str> {
         let view = View {
@@ -248,7 +307,8 @@ impl VariantId {
             camera_from_world: glam::Mat4::IDENTITY,
             yfov_radians: 1.0,
         };
-        let map = LightMap::new(scene, &scene.lights[0], 2048);
+        let technique = self.variant.technique;
+        let map = LightMap::with(scene, &scene.lights[0], (2048, technique.projection()));
         let inputs = Inputs {
             view: &view,
             light: &map,
@@ -257,9 +317,11 @@ impl VariantId {
             receivers: Receivers::Frame,
             seeding: Seeding::Fresh,
             geometry_key: 0,
+            past: &[],
+            age: 0,
         };
-        let mut recording = Recording::new(inputs.globals(0, 0));
-        self.variant.technique.record(&mut recording, &inputs);
+        let mut recording = inputs.recording([0, 0], technique.history());
+        technique.record(&mut recording, &inputs);
         recording.passes.iter().map(|p| p.label()).collect()
     }
 

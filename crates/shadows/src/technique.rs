@@ -1,7 +1,8 @@
 //! What a technique is, and how one is chosen and told what to shade.
 
-use crate::{Bias, Globals, Kernels, LightMap, Recording, VARIANTS};
+use crate::{Bias, Binding, Globals, Kernels, LightMap, Recording, VARIANTS};
 use umbrage_frame::View;
+use umbrage_scene::AreaLight;
 
 /// An algorithm at one typed setting. Implemented by the settings of each technique's own file.
 pub trait Technique: Sync {
@@ -9,8 +10,42 @@ pub trait Technique: Sync {
     fn info(&self) -> Info;
     /// Its search and its kernel in a calibration, in words.
     fn kernels(&self, calibration: Calibration) -> Kernels;
+    /// Which lights it can do.
+    fn lights(&self) -> Lights {
+        Lights::All
+    }
+    /// How it wants the light to see the world.
+    fn projection(&self) -> Projection {
+        Projection::Single
+    }
+    /// How many frames before the present one it needs.
+    fn history(&self) -> usize {
+        0
+    }
     /// Writes the passes of one frame; the last one fills the recording's values.
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>);
+}
+
+/// The lights that a technique can do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lights {
+    /// Any.
+    All,
+    /// Suns: its law of the penumbra knows directions only.
+    Suns,
+    /// Lights that have a place: disks, rectangles, spheres.
+    Placed,
+}
+
+/// How the light's map is laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Projection {
+    /// One map: orthographic for a sun, perspective for a light that has a place.
+    Single,
+    /// The same, wider by the largest penumbra on each side (a guard band).
+    Guarded,
+    /// Six faces round a light that has a place.
+    Cube,
 }
 
 /// A technique's description.
@@ -20,6 +55,8 @@ pub struct Info {
     pub title: &'static str,
     /// Seed document and section.
     pub document: &'static str,
+    /// What this setting of the technique chooses, in a few words; empty without a choice.
+    pub options: String,
     /// Shadow-map taps of the last pass and of searches: "32 search + 16 x 4".
     pub taps: String,
     /// Whether its pattern changes from pixel to pixel: then several seeds are needed.
@@ -72,13 +109,34 @@ impl VariantId {
     }
 }
 
-/// The variants of a name: `chss` (both calibrations) or `chss/as-printed`; empty when unknown.
+impl Lights {
+    /// Whether a light is one of them.
+    pub fn contain(self, light: &AreaLight) -> bool {
+        match self {
+            Self::All => true,
+            Self::Suns => light.centre().is_none(),
+            Self::Placed => light.centre().is_some(),
+        }
+    }
+
+    /// In words.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::All => "any light",
+            Self::Suns => "suns",
+            Self::Placed => "lights that have a place (disk, rect, sphere)",
+        }
+    }
+}
+
+/// The variants of a name: `chss` (both calibrations), `chss/as-printed`, or `all`; empty when
+/// unknown.
 pub fn select_variants(name: &str) -> Vec<VariantId> {
     let all = VARIANTS.iter().flat_map(|variant| {
         let with = move |calibration| VariantId { variant, calibration };
         Calibration::ALL.map(with)
     });
-    all.filter(|id| id.variant.name == name || id.name() == name).collect()
+    all.filter(|id| name == "all" || id.variant.name == name || id.name() == name).collect()
 }
 
 /// What the last pass shades.
@@ -121,9 +179,39 @@ pub struct Inputs<'a> {
     pub seeding: Seeding,
     /// Hash of the geometry, for maps that are kept.
     pub geometry_key: u64,
+    /// The views of the frames before, newest first; as many as the technique's history.
+    pub past: &'a [View],
+    /// How many frames ago this is: 0 is the present.
+    pub age: usize,
 }
 
-impl Inputs<'_> {
+impl<'a> Inputs<'a> {
+    /// The inputs of so many frames ago. A camera that has no past stood still.
+    pub(crate) fn earlier(&self, age: usize) -> Inputs<'a> {
+        Inputs { view: self.past.get(age - 1).or(self.past.last()).unwrap_or(self.view), age, ..*self }
+    }
+
+    /// The globals of the frame that these inputs are about.
+    pub(crate) fn own_globals(&self) -> Binding {
+        if self.age == 0 { Binding::Globals } else { Binding::EarlierGlobals(self.age) }
+    }
+
+    /// Globals of this frame and of those before it. A fresh pattern is drawn for every frame of a
+    /// history and every frame that looks back at it: estimates over frames then stay independent.
+    pub(crate) fn recording(&self, [frame, seed]: [u32; 2], history: usize) -> Recording {
+        let mut recording = Recording::new(self.globals(frame, seed));
+        for age in 1..=history {
+            let ago = frame.wrapping_sub(age as u32);
+            let (pattern_frame, pattern_seed) = match self.seeding {
+                Seeding::Fresh => (frame, seed ^ (age as u32).wrapping_mul(0x9e37_79b9)),
+                Seeding::Frozen | Seeding::Animated => (ago, seed),
+            };
+            let globals = self.earlier(age).globals(pattern_frame, pattern_seed);
+            recording.earlier.push(Globals { frame_index: ago, ..globals });
+        }
+        recording
+    }
+
     /// The uniform block for one frame and seed of the pattern.
     pub fn globals(&self, pattern_frame: u32, pattern_seed: u32) -> Globals {
         let (view, light) = (self.view, self.light);
@@ -146,6 +234,10 @@ impl Inputs<'_> {
             reference_gap: light.reference_gap,
             pattern_frame,
             pattern_seed,
+            frame_index: pattern_frame,
+            eye_distance: light.eye_distance,
+            far: light.far,
+            face_size: light.face_texels(),
         }
     }
 }

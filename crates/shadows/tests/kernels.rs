@@ -20,6 +20,8 @@ fn constants(id: VariantId, texels: u32) -> Vec<(&'static str, f64)> {
         receivers: Receivers::Frame,
         seeding: Seeding::Fresh,
         geometry_key: 0,
+        past: &[],
+        age: 0,
     };
     let mut recording = Recording::new(inputs.globals(0, 0));
     id.variant.technique.record(&mut recording, &inputs);

@@ -30,6 +30,8 @@ fn recordings() -> Vec<Recording> {
                 receivers,
                 seeding,
                 geometry_key: 0,
+                past: &[],
+                age: 0,
             };
             let mut recording = Recording::new(inputs.globals(0, 0));
             variant.variant.technique.record(&mut recording, &inputs);

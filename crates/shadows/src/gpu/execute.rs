@@ -2,8 +2,8 @@
 
 use super::textures::Allocated;
 use super::{Gpu, MAX_TIMED_PASSES};
-use crate::recording::{Binding, ComputePass, Pass, RasterPass, Recording};
-use crate::{Shaded, ShadowError};
+use crate::recording::{Binding, ComputePass, Pass, RasterPass, Recording, TextureId};
+use crate::{Globals, Shaded, ShadowError};
 
 /// GPU time of one pass.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,13 +14,16 @@ pub struct Timing {
     pub ms: f64,
     /// Whether its result is kept: then this is a cost per scene, not per frame.
     pub kept: bool,
+    /// Whether it belongs to an earlier frame, whose cost it was.
+    pub earlier: bool,
 }
 
 /// The resources of one run.
 struct Run<'a> {
     recording: &'a Recording,
     allocated: Allocated,
-    globals: wgpu::Buffer,
+    /// Of this frame, then of those before it.
+    globals: Vec<wgpu::Buffer>,
     values: wgpu::Buffer,
 }
 
@@ -52,12 +55,17 @@ impl Gpu {
                 Pass::Raster(raster) => self.encode_raster(&mut encoder, &run, (raster, slot)),
                 Pass::Compute(compute) => self.encode_compute(&mut encoder, &run, (compute, slot)),
             }
-            timed.extend(slot.map(|_| (pass.label(), kept)));
+            timed.extend(slot.map(|_| (pass, kept)));
         }
         let values = reads_values.then(|| (&run.values, u64::from(recording.globals.receivers) * 4));
         let (floats, times) = self.submit_and_read(encoder, values, timed.len() as u32)?;
         self.textures.filled(recording);
-        let timing = |((label, kept), ms): ((&'static str, bool), f64)| Timing { label, ms, kept };
+        let timing = |((pass, kept), ms): ((&Pass, bool), f64)| Timing {
+            label: pass.label(),
+            ms,
+            kept,
+            earlier: pass.is_earlier(),
+        };
         Ok(Shaded { values: floats, timings: timed.into_iter().zip(times).map(timing).collect() })
     }
 
@@ -69,11 +77,14 @@ impl Gpu {
             return Err(ShadowError::TooLarge { what: "a result", wanted: bytes, limit });
         }
         use wgpu::util::DeviceExt as _;
-        let globals = self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("globals"),
-            contents: bytemuck::bytes_of(&recording.globals),
-            usage: wgpu::BufferUsages::UNIFORM,
-        });
+        let block = |globals: &Globals| {
+            self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("globals"),
+                contents: bytemuck::bytes_of(globals),
+                usage: wgpu::BufferUsages::UNIFORM,
+            })
+        };
+        let globals = std::iter::once(&recording.globals).chain(&recording.earlier).map(block).collect();
         let values = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("values"),
             size: bytes,
@@ -90,7 +101,7 @@ impl Gpu {
         run: &Run<'_>,
         (pass, slot): (&ComputePass, Option<u32>),
     ) {
-        let compiled = self.pipelines.compute(&self.device, pass);
+        let compiled = self.pipelines.compute(&self.device, (pass, run.recording));
         let group = self.bind_group(run, &compiled.layout, &pass.bindings);
         let timestamp_writes =
             self.timestamps.as_ref().zip(slot).map(|(query_set, slot)| wgpu::ComputePassTimestampWrites {
@@ -112,15 +123,17 @@ impl Gpu {
         (pass, slot): (&RasterPass, Option<u32>),
     ) {
         let compiled = self.pipelines.raster(&self.device, (pass, run.recording));
-        let group = self.bind_group(run, &compiled.layout, &[Binding::Globals]);
-        let view = |t: crate::TextureId| run.allocated.textures[t.0].create_view(&Default::default());
+        let group = self.bind_group(run, &compiled.layout, &pass.bindings);
+        let view = |t: TextureId| view_of(&run.allocated.textures[t.0], Some(0));
+        let clears = pass.viewport.is_none_or(|[x, y, ..]| x == 0 && y == 0);
         let depth = view(pass.depth);
         let targets: Vec<_> = pass.targets.iter().map(|&(t, clear)| (view(t), clear)).collect();
         let attachments: Vec<_> = targets
             .iter()
             .map(|(view, clear)| {
                 let colour = wgpu::Color { r: *clear, g: *clear, b: *clear, a: *clear };
-                let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(colour), store: wgpu::StoreOp::Store };
+                let load = if clears { wgpu::LoadOp::Clear(colour) } else { wgpu::LoadOp::Load };
+                let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
                 Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
             })
             .collect();
@@ -148,6 +161,10 @@ impl Gpu {
         if let Some((vertices, count)) = &self.vertices {
             encoded.set_pipeline(&compiled.pipeline);
             encoded.set_bind_group(0, &group, &[]);
+            if let Some([x, y, width, height]) = pass.viewport {
+                encoded.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
+                encoded.set_scissor_rect(x, y, width, height);
+            }
             encoded.set_vertex_buffer(0, vertices.slice(..));
             encoded.draw(0..*count, 0..1);
         }
@@ -159,38 +176,41 @@ impl Gpu {
         layout: &wgpu::BindGroupLayout,
         bindings: &[Binding],
     ) -> wgpu::BindGroup {
-        let views: Vec<_> = bindings
-            .iter()
-            .map(|binding| match binding {
-                Binding::ShadowMap(t)
-                | Binding::CameraDepth(t)
-                | Binding::CameraNormal(t)
-                | Binding::Source(t)
-                | Binding::Destination(t) => {
-                    Some(run.allocated.textures[t.0].create_view(&Default::default()))
+        let view = |b: &Binding| b.texture().map(|(t, level)| view_of(&run.allocated.textures[t.0], level));
+        let views: Vec<_> = bindings.iter().map(view).collect();
+        let resource = |binding: &Binding| {
+            Some(match *binding {
+                Binding::Globals => run.globals[0].as_entire_binding(),
+                Binding::EarlierGlobals(age) | Binding::Past(age) => {
+                    run.globals.get(age)?.as_entire_binding()
                 }
-                _ => None,
+                Binding::Values => run.values.as_entire_binding(),
+                Binding::Anchors => self.anchors.as_ref()?.0.as_entire_binding(),
+                _ => wgpu::BindingResource::Sampler(&self.pipelines.nearest),
             })
-            .collect();
-        let entry =
-            |(binding, view): (&Binding, &'_ Option<wgpu::TextureView>)| (binding.number(), view.clone());
-        let numbered: Vec<_> = bindings.iter().zip(&views).map(entry).collect();
+        };
         let entries: Vec<_> = bindings
             .iter()
-            .zip(&numbered)
-            .filter_map(|(binding, (number, view))| {
-                let resource = match (binding, view) {
-                    (_, Some(view)) => wgpu::BindingResource::TextureView(view),
-                    (Binding::Globals, _) => run.globals.as_entire_binding(),
-                    (Binding::Values, _) => run.values.as_entire_binding(),
-                    (Binding::Anchors, _) => self.anchors.as_ref()?.0.as_entire_binding(),
-                    _ => wgpu::BindingResource::Sampler(&self.pipelines.nearest),
+            .zip(&views)
+            .filter_map(|(binding, view)| {
+                let resource = match view {
+                    Some(view) => wgpu::BindingResource::TextureView(view),
+                    None => resource(binding)?,
                 };
-                Some(wgpu::BindGroupEntry { binding: *number, resource })
+                Some(wgpu::BindGroupEntry { binding: binding.number(), resource })
             })
             .collect();
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
+}
+
+/// All levels of a texture, or one.
+fn view_of(texture: &wgpu::Texture, level: Option<u32>) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        base_mip_level: level.unwrap_or(0),
+        mip_level_count: level.map(|_| 1),
+        ..Default::default()
+    })
 }
 
 fn writes_values(pass: &Pass) -> bool {

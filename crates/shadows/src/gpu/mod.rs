@@ -30,7 +30,7 @@ pub struct Gpu {
 }
 
 /// Passes of a recording that are timed.
-const MAX_TIMED_PASSES: u32 = 32;
+const MAX_TIMED_PASSES: u32 = 96;
 
 impl Gpu {
     /// Opens an adapter.

@@ -1,6 +1,6 @@
 //! Pipelines, compiled once per distinct pass.
 
-use crate::recording::{Binding, ComputePass, Format, RasterPass, Recording};
+use crate::recording::{Binding, ComputePass, Format, RasterPass, Recording, TextureId};
 use crate::shader;
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
@@ -34,11 +34,14 @@ impl Pipelines {
     }
 
     /// The pipeline of a compute pass.
-    pub(super) fn compute(&mut self, device: &wgpu::Device, pass: &ComputePass) -> Compute {
-        let kinds: Vec<u32> = pass.bindings.iter().map(|b| b.number()).collect();
-        let bits: Vec<_> = pass.constants.iter().map(|(name, value)| (*name, value.to_bits())).collect();
-        let key = hash_of(&(&pass.shader, pass.entry, bits, kinds));
-        self.compute.entry(key).or_insert_with(|| compile_compute(device, pass)).clone()
+    pub(super) fn compute(
+        &mut self,
+        device: &wgpu::Device,
+        (pass, recording): (&ComputePass, &Recording),
+    ) -> Compute {
+        let slots = slots(&pass.bindings, recording);
+        let key = hash_of(&(&pass.shader, pass.entry, bits(&pass.constants), &slots));
+        self.compute.entry(key).or_insert_with(|| compile_compute(device, (pass, &slots))).clone()
     }
 
     /// The pipeline of a raster pass.
@@ -48,9 +51,37 @@ impl Pipelines {
         (pass, recording): (&RasterPass, &Recording),
     ) -> Raster {
         let formats: Vec<_> = pass.targets.iter().map(|t| recording.info(t.0).format).collect();
-        let key = hash_of(&(&pass.shader, formats.clone()));
-        self.raster.entry(key).or_insert_with(|| compile_raster(device, pass, &formats)).clone()
+        let slots = slots(&pass.bindings, recording);
+        let key = hash_of(&(&pass.shader, &formats, bits(&pass.constants), &slots));
+        self.raster.entry(key).or_insert_with(|| compile_raster(device, pass, (&formats, &slots))).clone()
     }
+}
+
+/// A binding and the format of its texture: what a layout depends on.
+type Slot = (Binding, Option<Format>);
+
+fn slots(bindings: &[Binding], recording: &Recording) -> Vec<Slot> {
+    let format = |b: &Binding| b.texture().map(|(t, _)| recording.info(t).format);
+    // Which texture it is, and which level, makes no difference.
+    let kind = |b: &Binding| match *b {
+        Binding::SourceLevel(..) => Binding::Source(TextureId(0)),
+        Binding::DestinationLevel(..) => Binding::Destination(TextureId(0)),
+        Binding::ShadowMap(_) => Binding::ShadowMap(TextureId(0)),
+        Binding::CameraDepth(_) => Binding::CameraDepth(TextureId(0)),
+        Binding::CameraNormal(_) => Binding::CameraNormal(TextureId(0)),
+        Binding::Source(_) => Binding::Source(TextureId(0)),
+        Binding::SourceB(_) => Binding::SourceB(TextureId(0)),
+        Binding::SourceC(_) => Binding::SourceC(TextureId(0)),
+        Binding::Destination(_) => Binding::Destination(TextureId(0)),
+        Binding::EarlierGlobals(_) => Binding::Globals,
+        Binding::Past(_) => Binding::Past(0),
+        other @ (Binding::Globals | Binding::Anchors | Binding::Values | Binding::Nearest) => other,
+    };
+    bindings.iter().map(|b| (kind(b), format(b))).collect()
+}
+
+fn bits(constants: &[(&'static str, f64)]) -> Vec<(&'static str, u64)> {
+    constants.iter().map(|(name, value)| (*name, value.to_bits())).collect()
 }
 
 fn hash_of(value: &impl Hash) -> u64 {
@@ -70,10 +101,9 @@ fn group_layout(device: &wgpu::Device, entries: &[wgpu::BindGroupLayoutEntry]) -
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries })
 }
 
-fn compile_compute(device: &wgpu::Device, pass: &ComputePass) -> Compute {
+fn compile_compute(device: &wgpu::Device, (pass, slots): (&ComputePass, &[Slot])) -> Compute {
     let source = shader::concatenate(&pass.shader);
-    let entries: Vec<_> =
-        pass.bindings.iter().map(|&b| layout_entry(b, wgpu::ShaderStages::COMPUTE)).collect();
+    let entries: Vec<_> = slots.iter().map(|&s| layout_entry(s, wgpu::ShaderStages::COMPUTE)).collect();
     let layout = group_layout(device, &entries);
     let constants = shader::declared(&source, &pass.constants);
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -91,10 +121,18 @@ fn compile_compute(device: &wgpu::Device, pass: &ComputePass) -> Compute {
     Compute { pipeline, layout }
 }
 
-fn compile_raster(device: &wgpu::Device, pass: &RasterPass, formats: &[Format]) -> Raster {
+fn compile_raster(
+    device: &wgpu::Device,
+    pass: &RasterPass,
+    (formats, slots): (&[Format], &[Slot]),
+) -> Raster {
     let source = shader::concatenate(&pass.shader);
     let module = module(device, (pass.label, &source));
-    let layout = group_layout(device, &[layout_entry(Binding::Globals, wgpu::ShaderStages::VERTEX_FRAGMENT)]);
+    let stages = wgpu::ShaderStages::VERTEX_FRAGMENT;
+    let entries: Vec<_> = slots.iter().map(|&s| layout_entry(s, stages)).collect();
+    let layout = group_layout(device, &entries);
+    let constants = shader::declared(&source, &pass.constants);
+    let options = || wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     let targets: Vec<_> = formats.iter().map(|&f| Some(wgpu_format(f).into())).collect();
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(pass.label),
@@ -106,7 +144,7 @@ fn compile_raster(device: &wgpu::Device, pass: &RasterPass, formats: &[Format]) 
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some("vertex"),
-            compilation_options: Default::default(),
+            compilation_options: options(),
             buffers: &[Some(wgpu::VertexBufferLayout {
                 array_stride: size_of::<crate::layout::Vertex>() as u64,
                 step_mode: wgpu::VertexStepMode::Vertex,
@@ -126,7 +164,7 @@ fn compile_raster(device: &wgpu::Device, pass: &RasterPass, formats: &[Format]) 
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some("fragment"),
-            compilation_options: Default::default(),
+            compilation_options: options(),
             targets: &targets,
         }),
         multiview_mask: None,
@@ -135,33 +173,37 @@ fn compile_raster(device: &wgpu::Device, pass: &RasterPass, formats: &[Format]) 
     Raster { pipeline, layout }
 }
 
-fn wgpu_format(format: Format) -> wgpu::TextureFormat {
+pub(super) fn wgpu_format(format: Format) -> wgpu::TextureFormat {
     match format {
         Format::R32Float => wgpu::TextureFormat::R32Float,
+        Format::Rg32Float => wgpu::TextureFormat::Rg32Float,
+        Format::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
         Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         Format::Depth32Float => wgpu::TextureFormat::Depth32Float,
     }
 }
 
-fn layout_entry(binding: Binding, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayoutEntry {
+fn layout_entry((binding, format): Slot, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayoutEntry {
     let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-    let ty = match binding {
-        Binding::Globals => buffer(wgpu::BufferBindingType::Uniform),
-        Binding::Anchors => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
-        Binding::Values => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
-        Binding::ShadowMap(_) | Binding::CameraDepth(_) | Binding::CameraNormal(_) | Binding::Source(_) => {
-            wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            }
-        }
-        Binding::Destination(_) => wgpu::BindingType::StorageTexture {
+    let view_dimension = wgpu::TextureViewDimension::D2;
+    let ty = match (binding, format) {
+        (Binding::Anchors, _) => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
+        (Binding::Values, _) => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
+        (Binding::Nearest, _) => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
+        (_, Some(format)) if binding.is_destination() => wgpu::BindingType::StorageTexture {
             access: wgpu::StorageTextureAccess::WriteOnly,
-            format: wgpu::TextureFormat::R32Float,
-            view_dimension: wgpu::TextureViewDimension::D2,
+            format: wgpu_format(format),
+            view_dimension,
         },
-        Binding::Nearest => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
+        (_, Some(format)) => wgpu::BindingType::Texture {
+            sample_type: match format {
+                Format::Rg32Uint => wgpu::TextureSampleType::Uint,
+                _ => wgpu::TextureSampleType::Float { filterable: false },
+            },
+            view_dimension,
+            multisampled: false,
+        },
+        (_, None) => buffer(wgpu::BufferBindingType::Uniform),
     };
     wgpu::BindGroupLayoutEntry { binding: binding.number(), visibility, ty, count: None }
 }

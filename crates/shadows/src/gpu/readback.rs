@@ -1,7 +1,7 @@
 //! From the GPU back to memory.
 
 use super::Gpu;
-use crate::recording::{Format, Recording};
+use crate::recording::{Format, Recording, TextureInfo};
 use crate::{Dump, ShadowError};
 use std::time::Duration;
 use umbrage_frame::Image;
@@ -45,46 +45,62 @@ impl Gpu {
         Ok((floats, ms))
     }
 
-    /// Reads every float texture of a recording that was just run.
+    /// Reads every level of every texture of a recording that was just run, but for depth buffers;
+    /// integers as the nearest float.
     pub(crate) fn read_textures(&mut self, recording: &Recording) -> Result<Vec<Dump>, ShadowError> {
         let allocated = self.textures.allocate(&self.device, recording);
         let mut dumps = Vec::new();
         for (info, texture) in recording.textures.iter().zip(&allocated.textures) {
-            let (texel_bytes, channels) = match info.format {
-                Format::R32Float => (4, 1),
-                Format::Rgba16Float => (8, 4),
-                Format::Depth32Float => continue,
-            };
-            // Rows of a copy are aligned to 256 bytes.
-            let row_bytes = (info.width * texel_bytes).next_multiple_of(256);
-            let staging = self.staging(u64::from(row_bytes) * u64::from(info.height));
-            let mut encoder = self.device.create_command_encoder(&Default::default());
-            encoder.copy_texture_to_buffer(
-                texture.as_image_copy(),
-                wgpu::TexelCopyBufferInfo {
-                    buffer: &staging,
-                    layout: wgpu::TexelCopyBufferLayout {
-                        offset: 0,
-                        bytes_per_row: Some(row_bytes),
-                        rows_per_image: None,
-                    },
-                },
-                wgpu::Extent3d { width: info.width, height: info.height, depth_or_array_layers: 1 },
-            );
-            self.queue.submit([encoder.finish()]);
-            let bytes = self.read::<u8>(&staging)?;
-            let texel = |x: u32, y: u32, c: u32| {
-                let at = (y * row_bytes + x * texel_bytes) as usize;
-                match info.format {
-                    Format::Rgba16Float => half(&bytes, at + 2 * c as usize),
-                    _ => float(&bytes, at),
-                }
-            };
-            let channel = |c| Image::from_fn(info.width, info.height, |x, y| texel(x, y, c));
-            dumps.push(Dump { label: info.label, channels: (0..channels).map(channel).collect() });
+            for level in 0..info.mips {
+                dumps.extend(self.read_level(info, texture, level)?);
+            }
         }
         self.check()?;
         Ok(dumps)
+    }
+
+    /// One level of a texture; nothing of a depth buffer.
+    fn read_level(
+        &self,
+        info: &TextureInfo,
+        texture: &wgpu::Texture,
+        level: u32,
+    ) -> Result<Option<Dump>, ShadowError> {
+        let (texel_bytes, channels) = match info.format {
+            Format::R32Float => (4, 1),
+            Format::Rg32Float | Format::Rg32Uint => (8, 2),
+            Format::Rgba16Float => (8, 4),
+            Format::Depth32Float => return Ok(None),
+        };
+        let [width, height] = info.size(level);
+        // Rows of a copy are aligned to 256 bytes.
+        let row_bytes = (width * texel_bytes).next_multiple_of(256);
+        let staging = self.staging(u64::from(row_bytes) * u64::from(height));
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            wgpu::TexelCopyTextureInfo { mip_level: level, ..texture.as_image_copy() },
+            wgpu::TexelCopyBufferInfo {
+                buffer: &staging,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row_bytes),
+                    rows_per_image: None,
+                },
+            },
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        );
+        self.queue.submit([encoder.finish()]);
+        let bytes = self.read::<u8>(&staging)?;
+        let texel = |x: u32, y: u32, c: u32| {
+            let at = (y * row_bytes + x * texel_bytes) as usize;
+            match info.format {
+                Format::Rgba16Float => half(&bytes, at + 2 * c as usize),
+                Format::Rg32Uint => float(&bytes, at + 4 * c as usize).to_bits() as f32,
+                _ => float(&bytes, at + 4 * c as usize),
+            }
+        };
+        let channel = |c| Image::from_fn(width, height, |x, y| texel(x, y, c));
+        Ok(Some(Dump { label: info.label, level, channels: (0..channels).map(channel).collect() }))
     }
 
     fn staging(&self, bytes: u64) -> wgpu::Buffer {

@@ -1,14 +1,18 @@
 //! Textures: kept by label as long as their key is the same, the others pooled by shape.
 
+use super::pipelines::wgpu_format;
 use crate::recording::{Format, Recording, TextureInfo};
 use std::collections::HashMap;
+
+/// Width, height, format, levels.
+type Shape = (u32, u32, Format, u32);
 
 /// Owns every texture of a device.
 #[derive(Default)]
 pub(super) struct Textures {
     /// Label -> shape and key, texture, and whether its passes have run.
     kept: HashMap<&'static str, (TextureInfo, wgpu::Texture, bool)>,
-    pool: HashMap<(u32, u32, Format), Vec<wgpu::Texture>>,
+    pool: HashMap<Shape, Vec<wgpu::Texture>>,
 }
 
 /// The textures of one recording.
@@ -22,12 +26,12 @@ impl Textures {
     /// A texture for each of the recording's.
     pub(super) fn allocate(&mut self, device: &wgpu::Device, recording: &Recording) -> Allocated {
         let mut allocated = Allocated { textures: Vec::new(), ready: Vec::new() };
-        let mut used: HashMap<(u32, u32, Format), usize> = HashMap::new();
+        let mut used: HashMap<Shape, usize> = HashMap::new();
         for info in &recording.textures {
             let (texture, ready) = match info.kept {
                 Some(_) => self.kept(device, info),
                 None => {
-                    let shape = (info.width, info.height, info.format);
+                    let shape = (info.width, info.height, info.format, info.mips);
                     let next = used.entry(shape).or_default();
                     *next += 1;
                     let pool = self.pool.entry(shape).or_default();
@@ -74,18 +78,18 @@ impl Textures {
 fn create(device: &wgpu::Device, info: &TextureInfo) -> wgpu::Texture {
     use wgpu::TextureUsages as Usage;
     let common = Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT | Usage::COPY_SRC;
-    let (format, usage) = match info.format {
-        Format::R32Float => (wgpu::TextureFormat::R32Float, common | Usage::STORAGE_BINDING),
-        Format::Rgba16Float => (wgpu::TextureFormat::Rgba16Float, common),
-        Format::Depth32Float => (wgpu::TextureFormat::Depth32Float, Usage::RENDER_ATTACHMENT),
+    let usage = match info.format {
+        Format::R32Float | Format::Rg32Float | Format::Rg32Uint => common | Usage::STORAGE_BINDING,
+        Format::Rgba16Float => common,
+        Format::Depth32Float => Usage::RENDER_ATTACHMENT,
     };
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some(info.label),
         size: wgpu::Extent3d { width: info.width, height: info.height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
+        mip_level_count: info.mips,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format,
+        format: wgpu_format(info.format),
         usage,
         view_formats: &[],
     })

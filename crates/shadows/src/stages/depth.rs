@@ -13,24 +13,35 @@ pub(crate) struct Surfaces {
     pub(crate) normal: TextureId,
 }
 
-/// Rasterises the camera's view, once per recording.
+/// Labels of depth, normals, depth buffer and pass, by how many frames ago it was.
+const LABELS: [[&str; 4]; 4] = [
+    ["camera-depth", "camera-normal", "camera-depth-buffer", "depth-prepass"],
+    ["earlier-1-depth", "earlier-1-normal", "earlier-1-depth-buffer", "earlier-1-depth-prepass"],
+    ["earlier-2-depth", "earlier-2-normal", "earlier-2-depth-buffer", "earlier-2-depth-prepass"],
+    ["earlier-3-depth", "earlier-3-normal", "earlier-3-depth-buffer", "earlier-3-depth-prepass"],
+];
+
+/// Rasterises the camera's view, once per recording and frame of the history.
 pub(crate) fn depth_prepass(recording: &mut Recording, inputs: &Inputs<'_>) -> Surfaces {
-    if let (Some(depth), Some(normal)) = (recording.find("camera-depth"), recording.find("camera-normal")) {
+    let [depth, normal, buffer, pass] = LABELS[inputs.age];
+    if let (Some(depth), Some(normal)) = (recording.find(depth), recording.find(normal)) {
         return Surfaces { depth, normal };
     }
     let (width, height) = (inputs.view.width, inputs.view.height);
     // The seeds and variants of one frame see the same surfaces.
     let kept = Some(view_key(inputs.view) ^ inputs.geometry_key);
-    let info = |label, format| TextureInfo { label, width, height, format, kept };
-    let depth = recording.texture(info("camera-depth", Format::R32Float));
-    let normal = recording.texture(info("camera-normal", Format::Rgba16Float));
-    let buffer =
-        recording.texture(TextureInfo { kept: None, ..info("camera-depth-buffer", Format::Depth32Float) });
+    let info = |label, format| TextureInfo { label, width, height, format, mips: 1, kept };
+    let depth = recording.texture(info(depth, Format::R32Float));
+    let normal = recording.texture(info(normal, Format::Rgba16Float));
+    let buffer = recording.texture(TextureInfo { kept: None, ..info(buffer, Format::Depth32Float) });
     recording.passes.push(Pass::Raster(RasterPass {
-        label: "depth-prepass",
+        label: pass,
         shader: vec![shader::RASTER_CAMERA, shader::GLOBALS],
+        constants: vec![],
+        bindings: vec![inputs.own_globals()],
         targets: vec![(depth, 0.0), (normal, 0.0)],
         depth: buffer,
+        viewport: None,
     }));
     Surfaces { depth, normal }
 }

@@ -1,6 +1,7 @@
 //! The low-resolution penumbra mask (T12).
 
 use super::{depth_prepass, shade, shadow_map};
+use crate::calibration::Law;
 use crate::recording::{Binding, ComputePass, Format, Recording, TextureId, TextureInfo};
 use crate::{Inputs, calibration, shader};
 
@@ -27,9 +28,10 @@ pub(crate) fn penumbra_mask(
     let surfaces = depth_prepass(recording, inputs);
     let (width, height) =
         (inputs.view.width.div_ceil(settings.step), inputs.view.height.div_ceil(settings.step));
-    let info = TextureInfo { label: "penumbra-mask", width, height, format: Format::R32Float, kept: None };
+    let info =
+        TextureInfo { label: "penumbra-mask", width, height, format: Format::R32Float, mips: 1, kept: None };
     let mask = recording.texture(info);
-    let (slots, mut constants) = calibration::slots(inputs);
+    let (slots, mut constants) = calibration::slots(inputs, Law::Standard);
     constants.extend([
         ("MASK_STEP", f64::from(settings.step)),
         ("SEARCH_TAPS", f64::from(settings.taps)),
@@ -42,12 +44,12 @@ pub(crate) fn penumbra_mask(
         shader::PENUMBRA_MASK,
         shader::GLOBALS,
         shader::SURFACE,
-        shader::TAP,
+        shader::TURN,
         shader::BLOCKER_SEARCH,
         shader::KERNEL_VOGEL,
     ];
     fragments.extend(slots);
-    fragments.extend(shade::pattern_fragments(inputs.seeding));
+    fragments.extend(shade::seeded(shader::PATTERN_IGN, inputs.seeding));
     let pass = ComputePass {
         label: "penumbra-mask",
         shader: fragments,

@@ -1,7 +1,8 @@
 //! The last pass of every technique, over pixels or anchors.
 
 use super::{depth_prepass, shadow_map};
-use crate::recording::{Binding, ComputePass, Pass, Recording, TextureId};
+use crate::calibration::Law;
+use crate::recording::{Binding, ComputePass, Pass, Recording};
 use crate::shader::{self, Fragment};
 use crate::{Inputs, Receivers, Seeding, calibration};
 
@@ -15,8 +16,20 @@ pub(crate) struct Shade {
     pub(crate) uses: Vec<Fragment>,
     /// Its constants.
     pub(crate) constants: Vec<(&'static str, f64)>,
-    /// A mask or map that it fetches from.
-    pub(crate) source: Option<TextureId>,
+    /// Textures that it fetches from, and whatever else it reads.
+    pub(crate) reads: Vec<Binding>,
+    /// Its law of the penumbra.
+    pub(crate) law: Law,
+    /// Its pattern, if it calls one.
+    pub(crate) pattern: Option<Fragment>,
+}
+
+impl Shade {
+    /// A pass that calls nothing but the map's taps.
+    pub(crate) fn new(label: &'static str, own: Fragment) -> Self {
+        let (uses, constants, reads) = (Vec::new(), Vec::new(), Vec::new());
+        Self { label, own, uses, constants, reads, law: Law::Standard, pattern: None }
+    }
 }
 
 /// Workgroups per row of a dispatch over anchors, as in `receiver_anchor.wgsl`.
@@ -25,17 +38,15 @@ const ROW_GROUPS: u32 = 1024;
 /// Adds the pass that fills the recording's values.
 pub(crate) fn shade(recording: &mut Recording, inputs: &Inputs<'_>, technique: Shade) {
     let map = shadow_map(recording, inputs);
-    let (slots, mut constants) = calibration::slots(inputs);
+    let (slots, mut constants) = calibration::slots(inputs, technique.law);
     constants.extend(technique.constants);
     constants.push(("PATTERN_SALT", 0.0));
-    let mut fragments = vec![technique.own, shader::ENTRY_SHADE, shader::GLOBALS, shader::TAP];
+    let mut fragments = vec![technique.own, shader::ENTRY_SHADE, shader::GLOBALS, shader::TURN];
     fragments.extend(technique.uses);
     fragments.extend(slots);
-    if fragments.contains(&shader::PATTERN_IGN) {
-        fragments.extend(seed_fragments(inputs.seeding));
-    }
+    fragments.extend(technique.pattern.into_iter().flat_map(|p| seeded(p, inputs.seeding)));
     let mut bindings = vec![Binding::Globals, Binding::ShadowMap(map), Binding::Values, Binding::Nearest];
-    bindings.extend(technique.source.map(Binding::Source));
+    bindings.extend(technique.reads);
     let groups = match inputs.receivers {
         Receivers::Frame => {
             let surfaces = depth_prepass(recording, inputs);
@@ -60,17 +71,15 @@ pub(crate) fn shade(recording: &mut Recording, inputs: &Inputs<'_>, technique: S
     }));
 }
 
-/// Interleaved gradient noise with the wanted seeding.
-pub(crate) fn pattern_fragments(seeding: Seeding) -> Vec<Fragment> {
-    let mut fragments = vec![shader::PATTERN_IGN];
-    fragments.extend(seed_fragments(seeding));
-    fragments
-}
-
-fn seed_fragments(seeding: Seeding) -> Vec<Fragment> {
-    match seeding {
-        Seeding::Fresh => vec![shader::SEED_FRESH, shader::HASH],
-        Seeding::Frozen => vec![shader::SEED_FROZEN, shader::HASH],
-        Seeding::Animated => vec![shader::SEED_ANIMATED, shader::HASH],
+/// A pattern with the wanted seeding.
+pub(crate) fn seeded(pattern: Fragment, seeding: Seeding) -> Vec<Fragment> {
+    if pattern == shader::PATTERN_NONE {
+        return vec![pattern];
     }
+    let seed = match seeding {
+        Seeding::Fresh => shader::SEED_FRESH,
+        Seeding::Frozen => shader::SEED_FROZEN,
+        Seeding::Animated => shader::SEED_ANIMATED,
+    };
+    vec![pattern, seed, shader::HASH]
 }

@@ -1,8 +1,9 @@
 //! T11: contact hardening at full resolution (percentage-closer soft shadows).
 
+use crate::calibration::Law;
 use crate::shader::{self, Fragment};
 use crate::stages::{Shade, shade};
-use crate::{Calibration, Info, Inputs, Kernels, Recording, Technique};
+use crate::{Calibration, Info, Inputs, Kernels, Lights, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("chss", include_str!("chss.wgsl"));
 
@@ -15,13 +16,25 @@ pub(crate) struct Chss {
     pub(crate) search_taps: u32,
     /// Bilinear-compare taps of the filter.
     pub(crate) filter_taps: u32,
+    /// How wide a penumbra is.
+    pub(crate) law: Law,
 }
+
+/// The first document's own setting.
+pub(crate) const CHSS: Chss = Chss { search_taps: 32, filter_taps: 16, law: Law::Standard };
 
 impl Technique for Chss {
     fn info(&self) -> Info {
         Info {
             title: "contact hardening at full resolution: blocker search, then filter",
-            document: "T11: first document, section 2.1; PCSS (Fernando 2005)",
+            document: match self.law {
+                Law::Squared => "T11a: first document, listing 4",
+                Law::Linear => "T11b: first document, listing 5; PCSS (Fernando 2005)",
+                Law::Plane => "T11c: excerpt of Real-Time Rendering",
+                Law::Distance => "T11d: third document",
+                _ => "T11: first document, section 2.1; PCSS (Fernando 2005)",
+            },
+            options: self.law.describe().into(),
             taps: format!("{} search + {} x 4", self.search_taps, self.filter_taps),
             stochastic: true,
         }
@@ -29,26 +42,26 @@ impl Technique for Chss {
 
     fn kernels(&self, calibration: Calibration) -> Kernels {
         let search = format!("{} x {SEARCH_SCALE:.1}", calibration.largest_radius());
-        let kernel = format!("{}; without a blocker 0", calibration.radius_for("the blockers' mean depth"));
-        Kernels::hardening(calibration, search, kernel)
+        let kernel = self.law.kernel(calibration, "the blockers' mean depth");
+        Kernels::hardening(calibration, search, format!("{kernel}; without a blocker 0"))
+    }
+
+    fn lights(&self) -> Lights {
+        // A distance alone says nothing about the angle of a light that has a place.
+        if self.law == Law::Distance { Lights::Suns } else { Lights::All }
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
         let technique = Shade {
-            label: "chss",
-            own: OWN,
-            uses: vec![
-                shader::BLOCKER_SEARCH,
-                shader::FILTER_DISC,
-                shader::KERNEL_VOGEL,
-                shader::PATTERN_IGN,
-            ],
+            uses: vec![shader::BLOCKER_SEARCH, shader::FILTER_DISC, shader::KERNEL_VOGEL],
             constants: vec![
                 ("SEARCH_TAPS", f64::from(self.search_taps)),
                 ("SEARCH_SCALE", SEARCH_SCALE),
                 ("FILTER_TAPS", f64::from(self.filter_taps)),
             ],
-            source: None,
+            law: self.law,
+            pattern: Some(shader::PATTERN_IGN),
+            ..Shade::new("chss", OWN)
         };
         shade(recording, inputs, technique);
     }

@@ -4,7 +4,7 @@ override SEARCH_SCALE: f32;
 
 fn shade(r: Receiver) -> f32 {
     let s = shadow_point(r.position, r.normal);
-    let angle = TAU * pattern(r.place);
+    let angle = TAU * pattern(r.place, r.position);
     let blocker = mean_blocker(s, SEARCH_SCALE * search_radius_uv(s.depth), angle);
     if blocker < 0.0 {
         return filter_disc(s, 0.0, angle);

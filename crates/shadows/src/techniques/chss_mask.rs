@@ -2,7 +2,7 @@
 
 use crate::shader::{self, Fragment};
 use crate::stages::{Blur, GAUSS_7, PenumbraMask, Shade, blur, penumbra_mask, shade};
-use crate::{Calibration, Info, Inputs, Kernels, Recording, Technique};
+use crate::{Binding, Calibration, Info, Inputs, Kernels, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("chss_mask", include_str!("chss_mask.wgsl"));
 
@@ -35,6 +35,7 @@ impl Technique for ChssMask {
         Info {
             title: "contact hardening with a penumbra mask at W/4 x H/4, blurred 7x7",
             document: "T12: first document, section 2.2",
+            options: String::new(),
             taps: format!(
                 "{} search / {} + {} x 4",
                 self.search_taps,
@@ -71,19 +72,14 @@ impl Technique for ChssMask {
         let labels = ["penumbra-mask-rows", "penumbra-mask-blurred"];
         let blurred = blur(recording, mask, Blur { weights: GAUSS_7, labels });
         let technique = Shade {
-            label: "chss-mask",
-            own: OWN,
-            uses: vec![
-                shader::FETCH_BILINEAR,
-                shader::FILTER_DISC,
-                shader::KERNEL_VOGEL,
-                shader::PATTERN_IGN,
-            ],
+            uses: vec![shader::FETCH_BILINEAR, shader::FILTER_DISC, shader::KERNEL_VOGEL],
             constants: vec![
                 ("MASK_STEP", f64::from(self.step)),
                 ("FILTER_TAPS", f64::from(self.filter_taps)),
             ],
-            source: Some(blurred),
+            reads: vec![Binding::Source(blurred)],
+            pattern: Some(shader::PATTERN_IGN),
+            ..Shade::new("chss-mask", OWN)
         };
         shade(recording, inputs, technique);
     }

@@ -4,5 +4,5 @@ override MASK_STEP: u32;
 fn shade(r: Receiver) -> f32 {
     let s = shadow_point(r.position, r.normal);
     let radius = fetch_bilinear(r.place / f32(MASK_STEP));
-    return filter_disc(s, radius, TAU * pattern(r.place));
+    return filter_disc(s, radius, TAU * pattern(r.place, r.position));
 }

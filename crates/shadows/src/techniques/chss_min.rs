@@ -3,7 +3,7 @@
 use crate::calibration::PRINTED_RADIUS_UV;
 use crate::shader::{self, Fragment};
 use crate::stages::{BOX_3, Blur, MinFilter, Shade, blur, min_filter, shade, shadow_map};
-use crate::{Calibration, Info, Inputs, Kernels, LightKind, LightMap, Recording, Technique};
+use crate::{Binding, Calibration, Info, Inputs, Kernels, LightMap, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("chss_min", include_str!("chss_min.wgsl"));
 
@@ -25,6 +25,7 @@ impl Technique for ChssMin {
         Info {
             title: "contact hardening with the minimum-filtered, blurred shadow map as blocker",
             document: "T13: first document, section 2.3",
+            options: String::new(),
             taps: format!("1 min + {} x 4", self.filter_taps),
             stochastic: true,
         }
@@ -54,16 +55,11 @@ impl Technique for ChssMin {
         let blurred =
             blur(recording, minimum, Blur { weights: BOX_3, labels: ["min-map-rows", "min-map-blurred"] });
         let technique = Shade {
-            label: "chss-min",
-            own: OWN,
-            uses: vec![
-                shader::FETCH_BILINEAR,
-                shader::FILTER_DISC,
-                shader::KERNEL_VOGEL,
-                shader::PATTERN_IGN,
-            ],
+            uses: vec![shader::FETCH_BILINEAR, shader::FILTER_DISC, shader::KERNEL_VOGEL],
             constants: vec![("FILTER_TAPS", f64::from(self.filter_taps))],
-            source: Some(blurred),
+            reads: vec![Binding::Source(blurred)],
+            pattern: Some(shader::PATTERN_IGN),
+            ..Shade::new("chss-min", OWN)
         };
         shade(recording, inputs, technique);
     }
@@ -73,13 +69,9 @@ impl Technique for ChssMin {
 /// document, 2.3). The demo's is 2; light-matched, the cone from the farthest receiver that
 /// matters, one at the region's centre, to the nearest blocker.
 fn region_radius(calibration: Calibration, light: &LightMap) -> u32 {
-    let gap = (light.eye_distance - light.nearest_blocker).max(0.0);
-    let radius_uv = match (calibration, light.kind) {
-        (Calibration::AsPrinted, _) => PRINTED_RADIUS_UV as f32,
-        (Calibration::LightMatched, LightKind::Sun) => gap * light.light_size * light.scale,
-        (Calibration::LightMatched, LightKind::Local) => {
-            light.light_size * gap / (light.eye_distance * light.nearest_blocker.max(1e-4)) * light.scale
-        }
+    let radius_uv = match calibration {
+        Calibration::AsPrinted => PRINTED_RADIUS_UV as f32,
+        Calibration::LightMatched => light.true_radius_uv(light.eye_distance, light.nearest_blocker),
     };
     let texels = radius_uv * light.texels as f32 / SHRINK as f32;
     (texels.ceil() as u32).clamp(REGION.0, REGION.1)

@@ -4,5 +4,5 @@ fn shade(r: Receiver) -> f32 {
     let s = shadow_point(r.position, r.normal);
     let size = vec2<f32>(textureDimensions(source));
     let blocker = min(fetch_bilinear(s.uv * size), s.depth);
-    return filter_disc(s, kernel_radius_uv(s.depth, blocker), TAU * pattern(r.place));
+    return filter_disc(s, kernel_radius_uv(s.depth, blocker), TAU * pattern(r.place, r.position));
 }

@@ -5,27 +5,55 @@ mod chss;
 mod chss_mask;
 mod chss_min;
 mod hard;
+mod lerp;
+mod pcf_disc;
 mod pcf_grid;
-mod pcf_vogel;
 
-use crate::Variant;
+use crate::calibration::Law;
+use crate::{Projection, Variant};
+use lerp::Base;
+use pcf_disc::{PcfDisc, Points, Rotation, Tap};
+use pcf_grid::PcfGrid;
 
 /// All variants in display order; each exists in both calibrations.
+#[rustfmt::skip] // a table: a line a variant
 pub static VARIANTS: &[Variant] = &[
-    Variant { name: "hard", technique: &hard::Hard },
-    Variant { name: "pcf-grid-11", technique: &pcf_grid::PcfGrid { side: 11 } },
-    Variant {
-        name: "pcf-vogel-16",
-        technique: &pcf_vogel::PcfVogel { taps: 16, rotation: pcf_vogel::Rotation::Fixed },
-    },
-    Variant {
-        name: "pcf-vogel-16-ign",
-        technique: &pcf_vogel::PcfVogel { taps: 16, rotation: pcf_vogel::Rotation::Ign },
-    },
-    Variant { name: "chss", technique: &chss::Chss { search_taps: 32, filter_taps: 16 } },
-    Variant {
-        name: "chss-mask",
-        technique: &chss_mask::ChssMask { search_scale: 1.2, ..chss_mask::PRINTED },
-    },
+    // One comparison, or the four round it.
+    Variant { name: "hard", technique: &hard::Hard { projection: Projection::Single } },
+    Variant { name: "lerp", technique: &lerp::Lerp { base: Base::Mended } },
+    Variant { name: "lerp-listing", technique: &lerp::Lerp { base: Base::Listing } },
+    // A kernel of one size.
+    Variant { name: "pcf-grid-3", technique: &PcfGrid { side: 3, tap: Tap::Point } },
+    Variant { name: "pcf-grid-5", technique: &PcfGrid { side: 5, tap: Tap::Point } },
+    Variant { name: "pcf-grid-11", technique: &PcfGrid { side: 11, tap: Tap::Point } },
+    Variant { name: "pcf-grid-3-lerp", technique: &PcfGrid { side: 3, tap: Tap::Bilinear } },
+    Variant { name: "pcf-poisson-16", technique: &PcfDisc { rotation: Rotation::Fixed, ..pcf_disc::POISSON_16 } },
+    Variant { name: "pcf-poisson-64", technique: &PcfDisc { rotation: Rotation::Fixed, taps: 64, ..pcf_disc::POISSON_16 } },
+    Variant { name: "pcf-poisson-16-hash", technique: &pcf_disc::POISSON_16 },
+    Variant { name: "pcf-poisson-8-hash", technique: &PcfDisc { taps: 8, ..pcf_disc::POISSON_16 } },
+    Variant { name: "pcf-poisson-16-ign", technique: &PcfDisc { rotation: Rotation::Ign, ..pcf_disc::POISSON_16 } },
+    Variant { name: "pcf-vogel-16", technique: &pcf_disc::VOGEL_16 },
+    Variant { name: "pcf-vogel-16-ign", technique: &PcfDisc { rotation: Rotation::Ign, ..pcf_disc::VOGEL_16 } },
+    Variant { name: "pcf-vogel-16-white", technique: &PcfDisc { rotation: Rotation::White, ..pcf_disc::VOGEL_16 } },
+    Variant { name: "pcf-vogel-32-ign", technique: &PcfDisc { rotation: Rotation::Ign, taps: 32, ..pcf_disc::VOGEL_16 } },
+    Variant { name: "pcf-vogel-16-point-ign", technique: &PcfDisc { rotation: Rotation::Ign, tap: Tap::Point, ..pcf_disc::VOGEL_16 } },
+    Variant { name: "pcf-vogel-64-point-ign", technique: &PcfDisc { rotation: Rotation::Ign, tap: Tap::Point, taps: 64, ..pcf_disc::VOGEL_16 } },
+    Variant { name: "pcf-blue-16", technique: &PcfDisc { points: Points::Blue, ..pcf_disc::VOGEL_16 } },
+    Variant { name: "pcf-blue-16-ign", technique: &PcfDisc { points: Points::Blue, rotation: Rotation::Ign, ..pcf_disc::VOGEL_16 } },
+    Variant { name: "pcf-blue-32-ign", technique: &PcfDisc { points: Points::Blue, rotation: Rotation::Ign, taps: 32, ..pcf_disc::VOGEL_16 } },
+    Variant { name: "pcf-spiral-8-ign", technique: &PcfDisc { points: Points::Spiral, rotation: Rotation::Ign, taps: 8, ..pcf_disc::VOGEL_16 } },
+    // Contact hardening at full resolution.
+    Variant { name: "chss", technique: &chss::CHSS },
+    Variant { name: "chss-16", technique: &chss::Chss { search_taps: 16, ..chss::CHSS } },
+    Variant { name: "chss-squared", technique: &chss::Chss { law: Law::Squared, ..chss::CHSS } },
+    Variant { name: "chss-linear", technique: &chss::Chss { law: Law::Linear, ..chss::CHSS } },
+    Variant { name: "chss-plane", technique: &chss::Chss { law: Law::Plane, ..chss::CHSS } },
+    Variant { name: "chss-distance", technique: &chss::Chss { law: Law::Distance, ..chss::CHSS } },
+    // The penumbra mask.
+    Variant { name: "chss-mask", technique: &chss_mask::PRINTED },
+    // The minimum filter.
     Variant { name: "chss-min", technique: &chss_min::ChssMin { filter_taps: 16 } },
+    // A map in every direction.
+    Variant { name: "hard-cube", technique: &hard::Hard { projection: Projection::Cube } },
+    Variant { name: "pcf-cube", technique: &PcfDisc { projection: Projection::Cube, ..pcf_disc::POISSON_16 } },
 ];

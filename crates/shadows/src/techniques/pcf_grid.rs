@@ -1,5 +1,6 @@
 //! T3: comparisons on a square grid of texels.
 
+use super::pcf_disc::Tap;
 use crate::shader::Fragment;
 use crate::stages::{Shade, shade};
 use crate::{Calibration, Info, Inputs, Kernels, Recording, Technique};
@@ -10,14 +11,23 @@ const OWN: Fragment = Fragment::new("pcf_grid", include_str!("pcf_grid.wgsl"));
 pub(crate) struct PcfGrid {
     /// Taps per side.
     pub(crate) side: u32,
+    /// What each compares.
+    pub(crate) tap: Tap,
 }
 
 impl Technique for PcfGrid {
     fn info(&self) -> Info {
         Info {
             title: "PCF: the mean of comparisons on a square grid of fixed size",
-            document: "T3: first document, figure 2; second and fourth document",
-            taps: (self.side * self.side).to_string(),
+            document: match self.tap {
+                Tap::Point => "T3: first document, figure 2; second and fourth document",
+                Tap::Bilinear => "T4: fourth document, PCF and interpolation",
+            },
+            options: match self.tap {
+                Tap::Point => format!("{0} x {0} points", self.side),
+                Tap::Bilinear => format!("{0} x {0} interpolated comparisons", self.side),
+            },
+            taps: self.tap.count(self.side * self.side),
             stochastic: false,
         }
     }
@@ -48,11 +58,11 @@ impl Technique for PcfGrid {
             Calibration::AsPrinted => 1.0,
             Calibration::LightMatched => 0.0,
         };
-        let constants = vec![("GRID_SIDE", f64::from(self.side)), ("GRID_STEP_TEXELS", step_texels)];
-        shade(
-            recording,
-            inputs,
-            Shade { label: "pcf-grid", own: OWN, uses: vec![], constants, source: None },
-        );
+        let constants = vec![
+            ("GRID_SIDE", f64::from(self.side)),
+            ("GRID_STEP_TEXELS", step_texels),
+            ("GRID_BILINEAR", f64::from(u8::from(self.tap == Tap::Bilinear))),
+        ];
+        shade(recording, inputs, Shade { constants, ..Shade::new("pcf-grid", OWN) });
     }
 }

@@ -1,7 +1,9 @@
-// The mean of comparisons on a square grid (T3).
+// The mean of comparisons on a square grid (T3), or of interpolated ones (T4).
 override GRID_SIDE: u32;
 // Distance between taps in texels; 0 = the light-matched kernel (square of the same half-side).
 override GRID_STEP_TEXELS: f32;
+// 1: each tap compares four texels.
+override GRID_BILINEAR: u32;
 
 fn shade(r: Receiver) -> f32 {
     let s = shadow_point(r.position, r.normal);
@@ -13,7 +15,12 @@ fn shade(r: Receiver) -> f32 {
     var lit = 0.0;
     for (var y = 0u; y < GRID_SIDE; y++) {
         for (var x = 0u; x < GRID_SIDE; x++) {
-            lit += lit_nearest(s, (vec2(f32(x), f32(y)) - half_side) * step_uv);
+            let offset = (vec2(f32(x), f32(y)) - half_side) * step_uv;
+            if GRID_BILINEAR == 1u {
+                lit += lit_bilinear(s, offset);
+            } else {
+                lit += lit_nearest(s, offset);
+            }
         }
     }
     return lit / f32(GRID_SIDE * GRID_SIDE);

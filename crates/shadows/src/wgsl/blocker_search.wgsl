@@ -2,10 +2,11 @@
 override SEARCH_TAPS: u32;
 
 fn mean_blocker(s: ShadowPoint, radius_uv: f32, angle: f32) -> f32 {
+    let turn = turn_of(angle);
     var sum = 0.0;
     var count = 0.0;
     for (var i = 0u; i < SEARCH_TAPS; i++) {
-        let pair = nearest_pair(s, radius_uv * kernel_tap(i, SEARCH_TAPS, angle));
+        let pair = nearest_pair(s, radius_uv * kernel_tap(i, SEARCH_TAPS, turn));
         if pair.x < pair.y {
             sum += pair.x;
             count += 1.0;

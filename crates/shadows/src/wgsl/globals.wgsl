@@ -25,6 +25,13 @@ struct Globals {
     // Which pattern: scores draw one per frame, seed and block.
     pattern_frame: u32,
     pattern_seed: u32,
+    // Number of the frame, for what alternates from frame to frame.
+    frame_index: u32,
+    // Light-space depth of the shadow region's centre, and of the far plane, metres.
+    eye_distance: f32,
+    far: f32,
+    // Side of one face of a cube map in texels; 0 for a single map.
+    face_size: u32,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;

@@ -18,7 +18,7 @@ fn penumbra_mask(@builtin(global_invocation_id) id: vec3<u32>) {
     var radius = 0.0;
     if r.seen {
         let s = shadow_point(r.position, r.normal);
-        let angle = TAU * pattern(vec2<f32>(id.xy) + 0.5);
+        let angle = TAU * pattern(vec2<f32>(id.xy) + 0.5, r.position);
         let largest = search_radius_uv(s.depth);
         let blocker = mean_blocker(s, SEARCH_SCALE * largest, angle);
         if blocker >= 0.0 {
