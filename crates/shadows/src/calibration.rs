@@ -183,6 +183,7 @@ pub(crate) fn slots(inputs: &Inputs<'_>, law: Law) -> (Vec<Fragment>, Vec<(&'sta
         ReceiverPlane::On { max_slope } => (shader::BIAS_RECEIVER_PLANE, max_slope),
     };
     let mut constants = vec![
+        ("MAP_TEXELS", f64::from(inputs.light.texels)),
         ("NORMAL_OFFSET_TEXELS", inputs.bias.normal_offset_texels),
         ("MAX_SLOPE", max_slope),
         ("CONSTANT_BIAS_WORLD", inputs.bias.constant_world(inputs.light)),
@@ -192,4 +193,9 @@ pub(crate) fn slots(inputs: &Inputs<'_>, law: Law) -> (Vec<Fragment>, Vec<(&'sta
     constants.extend(scaled);
     fragments.push(bias);
     (fragments, constants)
+}
+
+/// Replaces the value of a constant.
+pub(crate) fn set(constants: &mut [(&'static str, f64)], (name, value): (&'static str, f64)) {
+    constants.iter_mut().filter(|c| c.0 == name).for_each(|c| c.1 = value);
 }

@@ -242,9 +242,7 @@ impl<'a> Renderer<'a> {
             past: &self.past,
             age: 0,
         };
-        let mut recording = inputs.recording(job.pattern, technique.history());
-        technique.record(&mut recording, &inputs);
-        Ok(recording)
+        Ok(inputs.recorded(job.variant, job.pattern))
     }
 
     /// A cube's faces lie in one texture, wider than a single map.
@@ -320,8 +318,7 @@ impl VariantId {
             past: &[],
             age: 0,
         };
-        let mut recording = inputs.recording([0, 0], technique.history());
-        technique.record(&mut recording, &inputs);
+        let recording = inputs.recorded(*self, [0, 0]);
         recording.passes.iter().map(|p| p.label()).collect()
     }
 

@@ -196,9 +196,17 @@ impl<'a> Inputs<'a> {
         if self.age == 0 { Binding::Globals } else { Binding::EarlierGlobals(self.age) }
     }
 
+    /// A variant's passes with this frame and seed of the pattern.
+    pub fn recorded(&self, id: VariantId, pattern: [u32; 2]) -> Recording {
+        let technique = id.variant.technique;
+        let mut recording = self.recording(pattern, technique.history());
+        technique.record(&mut recording, self);
+        recording
+    }
+
     /// Globals of this frame and of those before it. A fresh pattern is drawn for every frame of a
     /// history and every frame that looks back at it: estimates over frames then stay independent.
-    pub(crate) fn recording(&self, [frame, seed]: [u32; 2], history: usize) -> Recording {
+    fn recording(&self, [frame, seed]: [u32; 2], history: usize) -> Recording {
         let mut recording = Recording::new(self.globals(frame, seed));
         for age in 1..=history {
             let ago = frame.wrapping_sub(age as u32);

@@ -3,30 +3,15 @@
 mod support;
 
 use support::edited::all_variants;
-use support::{still_life, variant_id};
+use support::variant_id;
 use umbrage_shadows::Calibration::{AsPrinted, LightMatched};
-use umbrage_shadows::{Inputs, Kernels, LightMap, Pass, Receivers, Recording, Seeding, VariantId};
+use umbrage_shadows::{Kernels, Pass, VariantId};
 
 /// The constants of all passes of a variant.
 fn constants(id: VariantId, texels: u32) -> Vec<(&'static str, f64)> {
-    let scene = still_life::scene();
-    let view = still_life::view_of(&still_life::camera());
-    let light = LightMap::new(&scene, &still_life::sun(), texels);
-    let inputs = Inputs {
-        view: &view,
-        light: &light,
-        calibration: id.calibration,
-        bias: id.calibration.default_bias(),
-        receivers: Receivers::Frame,
-        seeding: Seeding::Fresh,
-        geometry_key: 0,
-        past: &[],
-        age: 0,
-    };
-    let mut recording = Recording::new(inputs.globals(0, 0));
-    id.variant.technique.record(&mut recording, &inputs);
+    let recording = support::recording_of(id, texels);
     let of_pass = |pass: &Pass| match pass {
-        Pass::Raster(_) => Vec::new(),
+        Pass::Raster(raster) => raster.constants.clone(),
         Pass::Compute(compute) => compute.constants.clone(),
     };
     recording.passes.iter().flat_map(of_pass).collect()

@@ -7,6 +7,7 @@ use std::collections::{BTreeSet, HashSet};
 use support::edited::all_variants;
 use support::still_life;
 use umbrage_frame::Anchors;
+use umbrage_scene::AreaLight;
 use umbrage_shadows::{
     AdapterChoice, Fragment, Gpu, Inputs, LightMap, Pass, Receivers, Recording, Renderer, Seeding, VariantId,
     fragments,
@@ -18,33 +19,36 @@ const SEEDINGS: [Seeding; 3] = [Seeding::Fresh, Seeding::Frozen, Seeding::Animat
 fn recordings() -> Vec<Recording> {
     let scene = still_life::scene();
     let view = still_life::view_of(&still_life::camera());
+    let past = [view; 3];
     let mut all = Vec::new();
-    for light in [still_life::sun(), still_life::sphere()] {
-        let map = LightMap::new(&scene, &light, 256);
-        for (variant, receivers, seeding) in choices() {
-            let inputs = Inputs {
-                view: &view,
-                light: &map,
-                calibration: variant.calibration,
-                bias: variant.calibration.default_bias(),
-                receivers,
-                seeding,
-                geometry_key: 0,
-                past: &[],
-                age: 0,
-            };
-            let mut recording = Recording::new(inputs.globals(0, 0));
-            variant.variant.technique.record(&mut recording, &inputs);
-            all.push(recording);
-        }
+    for (variant, light, receivers, seeding) in choices() {
+        let map = LightMap::with(&scene, &light, (256, variant.variant.technique.projection()));
+        let inputs = Inputs {
+            view: &view,
+            light: &map,
+            calibration: variant.calibration,
+            bias: variant.calibration.default_bias(),
+            receivers,
+            seeding,
+            geometry_key: 0,
+            past: &past,
+            age: 0,
+        };
+        all.push(inputs.recorded(variant, [0, 0]));
     }
     all
 }
 
-fn choices() -> Vec<(VariantId, Receivers, Seeding)> {
-    let receivers = [Receivers::Frame, Receivers::Anchors { count: 100 }];
-    let with = |variant| receivers.iter().flat_map(move |&r| SEEDINGS.map(|s| (variant, r, s)));
-    all_variants().into_iter().flat_map(with).collect()
+fn choices() -> Vec<(VariantId, AreaLight, Receivers, Seeding)> {
+    let mut all = Vec::new();
+    for variant in all_variants() {
+        for light in still_life::lights_for(variant) {
+            for receivers in [Receivers::Frame, Receivers::Anchors { count: 100 }] {
+                all.extend(SEEDINGS.map(|seeding| (variant, light, receivers, seeding)));
+            }
+        }
+    }
+    all
 }
 
 fn shader_of(pass: &Pass) -> &[Fragment] {
@@ -58,7 +62,7 @@ fn shader_of(pass: &Pass) -> &[Fragment] {
 fn wgsl(pass: &Pass) -> (String, Vec<(String, f64)>) {
     let source = shader_of(pass).iter().map(|f| f.source.as_ref()).collect::<Vec<_>>().join("\n");
     let constants = match pass {
-        Pass::Raster(_) => Vec::new(),
+        Pass::Raster(raster) => raster.constants.clone(),
         Pass::Compute(compute) => compute.constants.clone(),
     };
     let declared = constants.into_iter().filter(|(name, _)| source.contains(&format!("override {name}:")));
@@ -182,16 +186,13 @@ fn every_pass_builds_and_runs_on_the_noop_backend() {
         normal: vec![glam::Vec3::Y; 100],
     };
     renderer.set_anchors(&anchors).expect("fits");
-    for light in [still_life::sun(), still_life::sphere()] {
-        for (variant, receivers, seeding) in choices() {
-            let (from, how) = ((&view, &light), (seeding, [0, 0]));
-            let (shaded, expected) = match receivers {
-                Receivers::Frame => (renderer.shade_frame(variant, from, how), view.width * view.height),
-                Receivers::Anchors { count } => (renderer.shade_anchors(variant, from, how), count),
-            };
-            let shaded =
-                shaded.unwrap_or_else(|e| panic!("{} {receivers:?} {seeding:?}: {e}", variant.name()));
-            assert_eq!(shaded.values.len(), expected as usize, "{}", variant.name());
-        }
+    for (variant, light, receivers, seeding) in choices() {
+        let (from, how) = ((&view, &light), (seeding, [0, 0]));
+        let (shaded, expected) = match receivers {
+            Receivers::Frame => (renderer.shade_frame(variant, from, how), view.width * view.height),
+            Receivers::Anchors { count } => (renderer.shade_anchors(variant, from, how), count),
+        };
+        let shaded = shaded.unwrap_or_else(|e| panic!("{} {receivers:?} {seeding:?}: {e}", variant.name()));
+        assert_eq!(shaded.values.len(), expected as usize, "{}", variant.name());
     }
 }

@@ -1,6 +1,6 @@
 //! The nearest depth of a square region of the shadow map (T13): shrunk, then separable.
 
-use crate::recording::{Binding, ComputePass, Format, Recording, TextureId, TextureInfo};
+use crate::recording::{Binding, ComputePass, Recording, TextureId, TextureInfo};
 use crate::shader;
 
 /// Settings of the minimum filter.
@@ -12,36 +12,40 @@ pub(crate) struct MinFilter {
     pub(crate) radius: u32,
 }
 
-/// Reduces and filters; kept as long as the map is.
-pub(crate) fn min_filter(recording: &mut Recording, map: TextureId, settings: MinFilter) -> TextureId {
+/// The nearest depth of each block of the map; kept as long as the map is.
+pub(crate) fn min_shrink(recording: &mut Recording, map: TextureId, shrink: u32) -> TextureId {
     let mut info = recording.info(map).clone();
-    // Kept contents depend on the settings as well as on the map.
-    let salt = u64::from(settings.shrink) << 32 | u64::from(settings.radius);
-    info.kept = info.kept.map(|key| key ^ salt.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    info.format = Format::R32Float;
-    info.width = info.width.div_ceil(settings.shrink);
-    info.height = info.height.div_ceil(settings.shrink);
-    let mut source = recording.texture(TextureInfo { label: "min-shrunk", ..info.clone() });
-    let pass = |label, shader, entry| ComputePass {
-        label,
-        shader: vec![shader],
-        entry,
-        constants: vec![],
-        bindings: vec![],
+    // Kept contents depend on the setting as well as on the map.
+    info.kept = info.kept.map(|key| key ^ u64::from(shrink).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    info.width = info.width.div_ceil(shrink);
+    info.height = info.height.div_ceil(shrink);
+    let shrunk = recording.texture(TextureInfo { label: "min-shrunk", ..info });
+    let pass = ComputePass {
+        label: "min-shrink",
+        shader: vec![shader::MIN_SHRINK],
+        entry: "min_shrink",
+        constants: vec![("SHRINK", f64::from(shrink))],
+        bindings: vec![Binding::Source(map), Binding::Destination(shrunk)],
         groups: [0, 0],
     };
-    let shrink = ComputePass {
-        constants: vec![("SHRINK", f64::from(settings.shrink))],
-        bindings: vec![Binding::Source(map), Binding::Destination(source)],
-        ..pass("min-shrink", shader::MIN_SHRINK, "min_shrink")
-    };
-    recording.filter(shrink, source);
+    recording.filter(pass, shrunk);
+    shrunk
+}
+
+/// Reduces and filters; kept as long as the map is.
+pub(crate) fn min_filter(recording: &mut Recording, map: TextureId, settings: MinFilter) -> TextureId {
+    let mut source = min_shrink(recording, map, settings.shrink);
+    let mut info = recording.info(source).clone();
+    info.kept = info.kept.map(|key| key ^ u64::from(settings.radius).wrapping_mul(0xc2b2_ae3d_27d4_eb4f));
     for (axis, label) in ["min-rows", "min-map"].into_iter().enumerate() {
         let destination = recording.texture(TextureInfo { label, ..info.clone() });
         let filter = ComputePass {
+            label,
+            shader: vec![shader::MIN_AXIS],
+            entry: "min_axis",
             constants: vec![("AXIS", axis as f64), ("RADIUS", f64::from(settings.radius))],
             bindings: vec![Binding::Source(source), Binding::Destination(destination)],
-            ..pass(label, shader::MIN_AXIS, "min_axis")
+            groups: [0, 0],
         };
         recording.filter(filter, destination);
         source = destination;

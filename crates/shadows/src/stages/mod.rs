@@ -2,14 +2,18 @@
 
 mod blur;
 mod depth;
+mod max_filter;
 mod min_filter;
 mod penumbra_mask;
 mod shade;
 mod shadow_map;
+mod surface_blur;
 
 pub(crate) use blur::{BOX_3, Blur, GAUSS_7, blur};
 pub(crate) use depth::depth_prepass;
-pub(crate) use min_filter::{MinFilter, min_filter};
+pub(crate) use max_filter::max_filter;
+pub(crate) use min_filter::{MinFilter, min_filter, min_shrink};
 pub(crate) use penumbra_mask::{PenumbraMask, penumbra_mask};
 pub(crate) use shade::{Shade, shade};
-pub(crate) use shadow_map::shadow_map;
+pub(crate) use shadow_map::{shadow_map, shadow_map_cleared};
+pub(crate) use surface_blur::{Likeness, SurfaceBlur, surface_blur};

@@ -1,6 +1,6 @@
 //! The low-resolution penumbra mask (T12).
 
-use super::{depth_prepass, shade, shadow_map};
+use super::{depth_prepass, shade};
 use crate::calibration::Law;
 use crate::recording::{Binding, ComputePass, Format, Recording, TextureId, TextureInfo};
 use crate::{Inputs, calibration, shader};
@@ -16,15 +16,17 @@ pub(crate) struct PenumbraMask {
     pub(crate) search_scale: f64,
     /// Levels of the stored value; 0 keeps floats.
     pub(crate) levels: u32,
+    /// Stored where nothing blocks, over the largest radius.
+    pub(crate) without_blocker: f64,
 }
 
-/// Kernel radius in map widths per block of pixels.
+/// Kernel radius in map widths per block of pixels, by a search in this map (the shadow map, or one
+/// that was reduced from it).
 pub(crate) fn penumbra_mask(
     recording: &mut Recording,
     inputs: &Inputs<'_>,
-    settings: PenumbraMask,
+    (settings, map): (PenumbraMask, TextureId),
 ) -> TextureId {
-    let map = shadow_map(recording, inputs);
     let surfaces = depth_prepass(recording, inputs);
     let (width, height) =
         (inputs.view.width.div_ceil(settings.step), inputs.view.height.div_ceil(settings.step));
@@ -32,11 +34,13 @@ pub(crate) fn penumbra_mask(
         TextureInfo { label: "penumbra-mask", width, height, format: Format::R32Float, mips: 1, kept: None };
     let mask = recording.texture(info);
     let (slots, mut constants) = calibration::slots(inputs, Law::Standard);
+    calibration::set(&mut constants, ("MAP_TEXELS", f64::from(recording.info(map).width)));
     constants.extend([
         ("MASK_STEP", f64::from(settings.step)),
         ("SEARCH_TAPS", f64::from(settings.taps)),
         ("SEARCH_SCALE", settings.search_scale),
         ("MASK_LEVELS", f64::from(settings.levels)),
+        ("WITHOUT_BLOCKER", settings.without_blocker),
         // Its noise must not repeat that of the last pass.
         ("PATTERN_SALT", 1.0),
     ]);
@@ -56,7 +60,7 @@ pub(crate) fn penumbra_mask(
         entry: "penumbra_mask",
         constants,
         bindings: vec![
-            Binding::Globals,
+            inputs.own_globals(),
             Binding::ShadowMap(map),
             Binding::CameraDepth(surfaces.depth),
             Binding::CameraNormal(surfaces.normal),

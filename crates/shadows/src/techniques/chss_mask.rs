@@ -1,8 +1,11 @@
-//! T12: contact hardening with a low-resolution, blurred penumbra mask.
+//! T12: contact hardening with a low-resolution penumbra mask, and every option of the document.
 
 use crate::shader::{self, Fragment};
-use crate::stages::{Blur, GAUSS_7, PenumbraMask, Shade, blur, penumbra_mask, shade};
-use crate::{Binding, Calibration, Info, Inputs, Kernels, Recording, Technique};
+use crate::stages::{
+    Blur, GAUSS_7, Likeness, PenumbraMask, Shade, SurfaceBlur, blur, max_filter, min_shrink, penumbra_mask, shade,
+    shadow_map, surface_blur,
+};
+use crate::{Binding, Calibration, Info, Inputs, Kernels, Recording, Technique, TextureId};
 
 const OWN: Fragment = Fragment::new("chss_mask", include_str!("chss_mask.wgsl"));
 
@@ -12,10 +15,49 @@ pub(crate) struct ChssMask {
     pub(crate) step: u32,
     /// Point taps of the blocker search.
     pub(crate) search_taps: u32,
-    /// Search radius over filter radius.
+    /// Search radius over filter radius (T12a).
     pub(crate) search_scale: f64,
     /// Bilinear-compare taps of the filter.
     pub(crate) filter_taps: u32,
+    /// What happens to the mask before it is used.
+    pub(crate) smoothing: Smoothing,
+    /// What the mask holds where nothing blocks.
+    pub(crate) without_blocker: WithoutBlocker,
+    /// Which map is searched.
+    pub(crate) searched: Searched,
+}
+
+/// What happens to the mask before it is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Smoothing {
+    /// Nothing.
+    Raw,
+    /// T12b: a Gaussian of 7x7 texels.
+    Gauss,
+    /// T12c: the same, across surfaces of like depth only.
+    DepthAware,
+    /// T12d: the same, its width inversely proportional to the distance from the camera.
+    DistanceScaled,
+    /// T12e: the largest of 7x7 texels first, then the Gaussian.
+    MaxFirst,
+}
+
+/// T12f: what the mask holds where nothing blocks, as a share of the largest radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum WithoutBlocker {
+    /// 0.
+    Nothing,
+    /// 1.
+    Largest,
+}
+
+/// Which map is searched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Searched {
+    /// The shadow map.
+    Full,
+    /// The nearest depth of each 2x2 texels of it, as the demo can.
+    Halved,
 }
 
 /// Levels that the mask stores: the demo's has 8 bits, light-matched radii keep their floats (0).
@@ -27,15 +69,78 @@ fn levels(calibration: Calibration) -> u32 {
 }
 
 /// The first document's own setting.
-pub(crate) const PRINTED: ChssMask =
-    ChssMask { step: 4, search_taps: 32, search_scale: 1.2, filter_taps: 16 };
+pub(crate) const PRINTED: ChssMask = ChssMask {
+    step: 4,
+    search_taps: 32,
+    search_scale: 1.2,
+    filter_taps: 16,
+    smoothing: Smoothing::Gauss,
+    without_blocker: WithoutBlocker::Nothing,
+    searched: Searched::Full,
+};
+
+impl Smoothing {
+    fn describe(self) -> &'static str {
+        match self {
+            Self::Raw => "not blurred",
+            Self::Gauss => "blurred 7x7 with sigma 3",
+            Self::DepthAware => "blurred 7x7 with sigma 3 across like depths",
+            Self::DistanceScaled => "blurred with sigma 3 texels at 10 m, inversely proportional to the distance",
+            Self::MaxFirst => "the largest of 7x7, then blurred 7x7 with sigma 3",
+        }
+    }
+}
+
+impl ChssMask {
+    /// The mask, smoothed.
+    pub(crate) fn mask(&self, recording: &mut Recording, inputs: &Inputs<'_>) -> TextureId {
+        let map = shadow_map(recording, inputs);
+        let map = match self.searched {
+            Searched::Full => map,
+            Searched::Halved => min_shrink(recording, map, 2),
+        };
+        let settings = PenumbraMask {
+            step: self.step,
+            taps: self.search_taps,
+            search_scale: self.search_scale,
+            levels: levels(inputs.calibration),
+            without_blocker: f64::from(u8::from(self.without_blocker == WithoutBlocker::Largest)),
+        };
+        let mask = penumbra_mask(recording, inputs, (settings, map));
+        let labels = ["penumbra-mask-rows", "penumbra-mask-blurred"];
+        let gauss = Blur { weights: GAUSS_7, labels };
+        let surfaces = |likeness| SurfaceBlur { gauss, step: self.step, likeness };
+        match self.smoothing {
+            Smoothing::Raw => mask,
+            Smoothing::Gauss => blur(recording, mask, gauss),
+            Smoothing::DepthAware => surface_blur(recording, inputs, (mask, surfaces(Likeness::Depth))),
+            Smoothing::DistanceScaled => surface_blur(recording, inputs, (mask, surfaces(Likeness::Distance))),
+            Smoothing::MaxFirst => {
+                let largest = max_filter(recording, mask);
+                blur(recording, largest, gauss)
+            }
+        }
+    }
+}
 
 impl Technique for ChssMask {
     fn info(&self) -> Info {
+        let default = match self.without_blocker {
+            WithoutBlocker::Nothing => "0 without a blocker",
+            WithoutBlocker::Largest => "the largest radius without a blocker",
+        };
+        let map = match self.searched {
+            Searched::Full => "",
+            Searched::Halved => ", search in the map of 2x2 minima",
+        };
         Info {
-            title: "contact hardening with a penumbra mask at W/4 x H/4, blurred 7x7",
+            title: "contact hardening with a penumbra mask at W/4 x H/4",
             document: "T12: first document, section 2.2",
-            options: String::new(),
+            options: format!(
+                "search x {}, {}, {default}{map}",
+                self.search_scale,
+                self.smoothing.describe()
+            ),
             taps: format!(
                 "{} search / {} + {} x 4",
                 self.search_taps,
@@ -52,32 +157,29 @@ impl Technique for ChssMask {
             0 => "floats".into(),
             levels => format!("1/{levels} of the cap (8 bits)"),
         };
+        let default = match self.without_blocker {
+            WithoutBlocker::Nothing => "0",
+            WithoutBlocker::Largest => "the cap",
+        };
         let kernel = format!(
-            "{}; without a blocker 0; found once per {step}x{step} pixels, stored in {stored}, blurred 7x7 with sigma 3, \
-             fetched bilinearly",
+            "{}; without a blocker {default}; found once per {step}x{step} pixels, stored in {stored}, {}, fetched \
+             bilinearly",
             calibration.radius_for("the blockers' mean depth"),
+            self.smoothing.describe(),
             step = self.step,
         );
         Kernels::hardening(calibration, search, kernel)
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
-        let settings = PenumbraMask {
-            step: self.step,
-            taps: self.search_taps,
-            search_scale: self.search_scale,
-            levels: levels(inputs.calibration),
-        };
-        let mask = penumbra_mask(recording, inputs, settings);
-        let labels = ["penumbra-mask-rows", "penumbra-mask-blurred"];
-        let blurred = blur(recording, mask, Blur { weights: GAUSS_7, labels });
+        let mask = self.mask(recording, inputs);
         let technique = Shade {
             uses: vec![shader::FETCH_BILINEAR, shader::FILTER_DISC, shader::KERNEL_VOGEL],
             constants: vec![
                 ("MASK_STEP", f64::from(self.step)),
                 ("FILTER_TAPS", f64::from(self.filter_taps)),
             ],
-            reads: vec![Binding::Source(blurred)],
+            reads: vec![Binding::Source(mask)],
             pattern: Some(shader::PATTERN_IGN),
             ..Shade::new("chss-mask", OWN)
         };

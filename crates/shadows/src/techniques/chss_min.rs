@@ -2,7 +2,7 @@
 
 use crate::calibration::PRINTED_RADIUS_UV;
 use crate::shader::{self, Fragment};
-use crate::stages::{BOX_3, Blur, MinFilter, Shade, blur, min_filter, shade, shadow_map};
+use crate::stages::{BOX_3, Blur, MinFilter, Shade, blur, min_filter, shade, shadow_map_cleared};
 use crate::{Binding, Calibration, Info, Inputs, Kernels, LightMap, Recording, Technique};
 
 const OWN: Fragment = Fragment::new("chss_min", include_str!("chss_min.wgsl"));
@@ -18,14 +18,47 @@ const REGION: (u32, u32) = (2, 64);
 pub(crate) struct ChssMin {
     /// Bilinear-compare taps of the filter.
     pub(crate) filter_taps: u32,
+    /// Whether the minimum is blurred.
+    pub(crate) smoothing: Smoothing,
+    /// What the map holds where nothing is.
+    pub(crate) empty: Empty,
 }
+
+/// Whether the minimum is blurred.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Smoothing {
+    /// As it is: lumps.
+    Raw,
+    /// By a 3x3 box of reduced texels.
+    Box,
+}
+
+/// What the map holds where nothing is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Empty {
+    /// The far plane.
+    Far,
+    /// The demo's 1, nearer than anything: it floods the minimum (TECHNIQUES section 2). Two
+    /// thousandths of the light's distance here, for the demo's light stands 500 away.
+    Near,
+}
+
+/// The first document's own setting.
+pub(crate) const PRINTED: ChssMin =
+    ChssMin { filter_taps: 16, smoothing: Smoothing::Box, empty: Empty::Far };
 
 impl Technique for ChssMin {
     fn info(&self) -> Info {
         Info {
             title: "contact hardening with the minimum-filtered, blurred shadow map as blocker",
             document: "T13: first document, section 2.3",
-            options: String::new(),
+            options: match (self.smoothing, self.empty) {
+                (Smoothing::Raw, _) => "not blurred".into(),
+                (Smoothing::Box, Empty::Far) => "blurred 3x3".into(),
+                (Smoothing::Box, Empty::Near) => {
+                    "blurred 3x3; the demo's map, whose empty texels are nearer than anything".into()
+                }
+            },
             taps: format!("1 min + {} x 4", self.filter_taps),
             stochastic: true,
         }
@@ -43,17 +76,28 @@ impl Technique for ChssMin {
              at most {}, r = {reach}; the map is first reduced by {SHRINK}",
             REGION.0, REGION.1
         );
-        let blocker =
-            "the region's least depth, blurred by a 3x3 box of reduced texels, fetched bilinearly, at most z";
+        let blocker = match self.smoothing {
+            Smoothing::Raw => "the region's least depth, fetched bilinearly, at most z",
+            Smoothing::Box => {
+                "the region's least depth, blurred by a 3x3 box of reduced texels, fetched bilinearly, at most z"
+            }
+        };
         Kernels::hardening(calibration, search, calibration.radius_for(blocker))
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
-        let map = shadow_map(recording, inputs);
+        let empty = match self.empty {
+            Empty::Far => f64::from(inputs.light.far),
+            Empty::Near => 0.002 * f64::from(inputs.light.eye_distance),
+        };
+        let map = shadow_map_cleared(recording, inputs, empty);
         let radius = region_radius(inputs.calibration, inputs.light);
         let minimum = min_filter(recording, map, MinFilter { shrink: SHRINK, radius });
-        let blurred =
-            blur(recording, minimum, Blur { weights: BOX_3, labels: ["min-map-rows", "min-map-blurred"] });
+        let box_3 = Blur { weights: BOX_3, labels: ["min-map-rows", "min-map-blurred"] };
+        let blurred = match self.smoothing {
+            Smoothing::Raw => minimum,
+            Smoothing::Box => blur(recording, minimum, box_3),
+        };
         let technique = Shade {
             uses: vec![shader::FETCH_BILINEAR, shader::FILTER_DISC, shader::KERNEL_VOGEL],
             constants: vec![("FILTER_TAPS", f64::from(self.filter_taps))],

@@ -8,12 +8,16 @@ mod hard;
 mod lerp;
 mod pcf_disc;
 mod pcf_grid;
+mod pcss;
 
 use crate::calibration::Law;
 use crate::{Projection, Variant};
+use chss_mask::{ChssMask, Searched, Smoothing, WithoutBlocker};
+use chss_min::{ChssMin, Empty};
 use lerp::Base;
 use pcf_disc::{PcfDisc, Points, Rotation, Tap};
 use pcf_grid::PcfGrid;
+use pcss::{Mean, Pcss};
 
 /// All variants in display order; each exists in both calibrations.
 #[rustfmt::skip] // a table: a line a variant
@@ -49,11 +53,30 @@ pub static VARIANTS: &[Variant] = &[
     Variant { name: "chss-linear", technique: &chss::Chss { law: Law::Linear, ..chss::CHSS } },
     Variant { name: "chss-plane", technique: &chss::Chss { law: Law::Plane, ..chss::CHSS } },
     Variant { name: "chss-distance", technique: &chss::Chss { law: Law::Distance, ..chss::CHSS } },
+    Variant { name: "pcss", technique: &pcss::MENDED },
+    Variant { name: "pcss-listing", technique: &Pcss { law: Law::Depth01, ..pcss::MENDED } },
+    Variant { name: "pcss-text", technique: &Pcss { mean: Mean::All, ..pcss::MENDED } },
     // The penumbra mask.
     Variant { name: "chss-mask", technique: &chss_mask::PRINTED },
+    Variant { name: "chss-mask-raw-1.0", technique: &ChssMask { smoothing: Smoothing::Raw, search_scale: 1.0, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-raw-1.2", technique: &ChssMask { smoothing: Smoothing::Raw, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-1.0", technique: &ChssMask { search_scale: 1.0, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-1.4", technique: &ChssMask { search_scale: 1.4, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-1.6", technique: &ChssMask { search_scale: 1.6, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-1.8", technique: &ChssMask { search_scale: 1.8, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-depth-aware", technique: &ChssMask { smoothing: Smoothing::DepthAware, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-distance", technique: &ChssMask { smoothing: Smoothing::DistanceScaled, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-max", technique: &ChssMask { smoothing: Smoothing::MaxFirst, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-one", technique: &ChssMask { without_blocker: WithoutBlocker::Largest, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-one-1.0", technique: &ChssMask { without_blocker: WithoutBlocker::Largest, search_scale: 1.0, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-16", technique: &ChssMask { search_taps: 16, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-small-map", technique: &ChssMask { searched: Searched::Halved, ..chss_mask::PRINTED } },
     // The minimum filter.
-    Variant { name: "chss-min", technique: &chss_min::ChssMin { filter_taps: 16 } },
+    Variant { name: "chss-min", technique: &chss_min::PRINTED },
+    Variant { name: "chss-min-sharp", technique: &ChssMin { smoothing: chss_min::Smoothing::Raw, ..chss_min::PRINTED } },
+    Variant { name: "chss-min-listing", technique: &ChssMin { empty: Empty::Near, ..chss_min::PRINTED } },
     // A map in every direction.
     Variant { name: "hard-cube", technique: &hard::Hard { projection: Projection::Cube } },
     Variant { name: "pcf-cube", technique: &PcfDisc { projection: Projection::Cube, ..pcf_disc::POISSON_16 } },
+    Variant { name: "pcss-cube", technique: &Pcss { law: Law::Point, projection: Projection::Cube, ..pcss::MENDED } },
 ];

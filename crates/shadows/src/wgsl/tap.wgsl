@@ -3,6 +3,9 @@
 @group(0) @binding(1) var shadow_map: texture_2d<f32>;
 @group(0) @binding(8) var nearest: sampler;
 
+// Texels of the map's side: that of the light, or of a map reduced from it.
+override MAP_TEXELS: f32;
+
 fn inside_map(uv: vec2<f32>) -> bool {
     return all(uv >= vec2(0.0)) && all(uv < vec2(1.0));
 }
@@ -13,7 +16,7 @@ fn nearest_pair(s: ShadowPoint, offset_uv: vec2<f32>) -> vec2<f32> {
     if !inside_map(uv) {
         return vec2(3.0e38, 0.0);
     }
-    let size = f32(globals.map_size);
+    let size = MAP_TEXELS;
     let texel = floor(uv * size);
     let depth = textureLoad(shadow_map, vec2<u32>(texel), 0).x;
     return vec2(depth, reference_depth(s, (texel + 0.5) / size - s.uv));
@@ -31,7 +34,7 @@ fn lit_bilinear(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
     if !inside_map(uv) {
         return 1.0;
     }
-    let size = f32(globals.map_size);
+    let size = MAP_TEXELS;
     let place = uv * size - 0.5;
     let base = floor(place);
     let weight = place - base;

@@ -3,6 +3,7 @@
 use crate::support::{self, still_life};
 use crate::twins::light::Light;
 use crate::twins::pattern::Pattern;
+use crate::twins::plain::{Plain, Spot, shade};
 use crate::twins::screen::{Receiver, anchor, surface};
 use crate::twins::variants::{Answer, Twin};
 use umbrage_frame::{Anchors, Image};
@@ -32,6 +33,56 @@ pub(crate) struct Ran {
     /// The frame's own pixel centres as anchors, and what the variant says there.
     pub(crate) anchors: Anchors,
     pub(crate) anchored: Vec<f32>,
+}
+
+/// Where a result is taken.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Reading {
+    Pixels,
+    Anchors,
+}
+
+/// The comparison of many results with bands of plain answers.
+#[derive(Debug, Default)]
+pub(crate) struct Bands {
+    pub(crate) compared: usize,
+    /// Bands wider than the tolerance.
+    pub(crate) wide: usize,
+    /// Results outside of their bands.
+    pub(crate) outside: Vec<String>,
+}
+
+/// What single precision may add to a mean of weighted comparisons beyond the receiver's place: a
+/// weight of a bilinear tap is known to 1e-4 (a place of 500 texels to 6e-5), the rest to 1e-6.
+const TOLERANCE: f64 = 5e-4;
+
+impl Bands {
+    fn add(&mut self, value: f32, answers: &[f64]) {
+        self.compared += 1;
+        let low = answers.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = answers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        self.wide += usize::from(high - low > TOLERANCE);
+        let inside = (low - TOLERANCE..=high + TOLERANCE).contains(&f64::from(value));
+        if !inside || value.is_nan() {
+            self.outside.push(format!("{value} is not in {low}..{high}"));
+        }
+    }
+
+    /// Fails where more results lie outside of their bands than unlucky roundings make: a band of
+    /// eleven answers does not hold every outcome of a comparison at a blocker's border. Limits are
+    /// shares of all results.
+    pub(crate) fn check(&self, what: &str, [most_outside, most_wide]: [f64; 2]) {
+        let share = |n: usize| n as f64 / self.compared as f64;
+        let some: Vec<_> = self.outside.iter().take(5).collect();
+        assert!(self.compared > 1000, "{what}: only {} compared", self.compared);
+        assert!(
+            share(self.outside.len()) <= most_outside,
+            "{what}: {} of {} are outside: {some:#?}",
+            self.outside.len(),
+            self.compared
+        );
+        assert!(share(self.wide) <= most_wide, "{what}: {:.3} of the bands are wide", share(self.wide));
+    }
 }
 
 /// The comparison of many results.
@@ -120,6 +171,37 @@ impl Ran {
             depths: self.image("shadow-map"),
             source,
         }
+    }
+
+    /// The plain twin of a pass of this run.
+    pub(crate) fn plain<'a>(&'a self, light: &'a Light, pass: u32) -> Plain<'a> {
+        let Twin { calibration, bias, pattern, .. } = self.twin(light, pass);
+        Plain { light, calibration, bias, pattern, dumps: &self.dumps }
+    }
+
+    /// Every pixel, or every anchor, against the band of the plain twin.
+    pub(crate) fn compare_plain(&self, reading: Reading) -> Bands {
+        let (light, mut bands) = (self.light(), Bands::default());
+        let (plain, name) = (self.plain(&light, 0), self.case.variant.variant.name);
+        let mut add = |receiver: &Receiver, value: f32| {
+            let spots = Spot::of(receiver).jittered();
+            bands.add(value, &spots.iter().flat_map(|s| shade(&plain, name, s)).collect::<Vec<_>>());
+        };
+        match reading {
+            Reading::Pixels => {
+                for (index, &value) in self.values.iter().enumerate() {
+                    let pixel = [index as u32 % still_life::SIZE.0, index as u32 / still_life::SIZE.0];
+                    self.surface(pixel).iter().for_each(|receiver| add(receiver, value));
+                }
+            }
+            Reading::Anchors => {
+                for (k, &value) in self.anchored.iter().enumerate() {
+                    let (position, normal) = (self.anchors.position[k], self.anchors.normal[k]);
+                    add(&anchor(&self.anchors.view, position, normal), value);
+                }
+            }
+        }
+        bands
     }
 
     /// Every pixel of the frame against the twin.

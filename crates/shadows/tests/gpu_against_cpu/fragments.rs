@@ -30,7 +30,7 @@ fn round(a: f64, b: f64) -> f64 {
 fn gradient_noise_and_its_seedings() {
     for seeding in [Seeding::Fresh, Seeding::Frozen, Seeding::Animated] {
         for [frame, seed] in [[0, 0], [1, 0], [63, 2], [64, 2]] {
-            let case = probed("return pattern(r.place);", Calibration::LightMatched, still_life::sun());
+            let case = probed("return pattern(r.place, r.position);", Calibration::LightMatched, still_life::sun());
             let ran = Case { seeding, pattern: [frame, seed], ..case }.run();
             let twin = Pattern { seeding, frame, seed, pass: 0 };
             for (pixel, value) in seen(&ran) {
@@ -47,7 +47,7 @@ fn gradient_noise_and_its_seedings() {
 #[test]
 fn vogels_disc() {
     // Columns choose the tap, rows the angle; x and y in turn.
-    let body = "let k = kernel_tap(u32(r.place.x) % 32u, 32u, 0.125 * floor(r.place.y)); \
+    let body = "let k = kernel_tap(u32(r.place.x) % 32u, 32u, turn_of(0.125 * floor(r.place.y))); \
                 return select(k.x, k.y, u32(r.place.y) % 2u == 1u);";
     let ran = probed(body, Calibration::LightMatched, still_life::sun()).run();
     for (pixel, value) in seen(&ran) {

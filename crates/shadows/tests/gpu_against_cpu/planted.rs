@@ -61,7 +61,7 @@ const KERNELS: &[Plant] = &[
         "vec2(cos(theta), sin(theta))",
         "vec2(sin(theta), cos(theta))",
     ),
-    ("pcf-vogel-16-ign", LightMatched, "pcf_vogel", "TAU * pattern", "pattern"),
+    ("pcf-vogel-16-ign", LightMatched, "pcf_disc", "TAU * pattern", "pattern"),
     ("pcf-vogel-16-ign", LightMatched, "pattern_ign", "52.9829189", "50.0"),
     ("pcf-vogel-16-ign", LightMatched, "pattern_ign", "floor(place) + 0.5", "floor(place)"),
     ("pcf-vogel-16-ign", LightMatched, "seed_fresh", "/ 16u", "/ 8u"),

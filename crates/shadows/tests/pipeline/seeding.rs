@@ -27,7 +27,7 @@ fn pictures(body: &'static str, seeding: Seeding, patterns: &[[u32; 2]]) -> Vec<
 }
 
 const PHASE: &str = "return pattern_phase(floor(r.place) + 0.5);";
-const PATTERN: &str = "return pattern(r.place);";
+const PATTERN: &str = "return pattern(r.place, r.position);";
 
 fn at(picture: &[f32], x: u32, y: u32) -> f32 {
     picture[(y * still_life::SIZE.0 + x) as usize]

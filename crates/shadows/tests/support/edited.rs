@@ -2,7 +2,8 @@
 //! plant an error and see that a test notices it.
 
 use umbrage_shadows::{
-    Calibration, Fragment, Info, Inputs, Kernels, Pass, Recording, Technique, Variant, VariantId,
+    Calibration, Fragment, Info, Inputs, Kernels, Lights, Pass, Projection, Recording, Technique, Variant,
+    VariantId,
 };
 
 /// A piece of WGSL to replace.
@@ -31,6 +32,18 @@ impl Technique for Edited {
 
     fn kernels(&self, calibration: Calibration) -> Kernels {
         self.original.kernels(calibration)
+    }
+
+    fn lights(&self) -> Lights {
+        self.original.lights()
+    }
+
+    fn projection(&self) -> Projection {
+        self.original.projection()
+    }
+
+    fn history(&self) -> usize {
+        self.original.history()
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {

@@ -4,6 +4,7 @@
 
 use glam::{Mat4, Quat, Vec3};
 use umbrage_frame::View;
+use umbrage_shadows::VariantId;
 use umbrage_scene::{AreaLight, Camera, Geometry, Material, Scene, ShadowRegion};
 
 /// Width and height of the test pictures.
@@ -118,4 +119,36 @@ pub(crate) fn plane(half: f32, turn: Quat) -> Geometry {
 
 fn at(x: f32, y: f32, z: f32) -> Mat4 {
     Mat4::from_translation(Vec3::new(x, y, z))
+}
+
+/// A light that the variant can do: the sun if it can.
+pub(crate) fn light_for(id: VariantId) -> AreaLight {
+    if id.check_light(&sun()).is_ok() { sun() } else { sphere() }
+}
+
+/// The sun and the sphere, as far as the variant can do them.
+pub(crate) fn lights_for(id: VariantId) -> Vec<AreaLight> {
+    [sun(), sphere()].into_iter().filter(|light| id.check_light(light).is_ok()).collect()
+}
+
+/// Distance from a point to the nearest surface, by brute force: a fine grid of points on every
+/// triangle, within a thousandth of its size.
+pub(crate) fn nearest_to(from: glam::DVec3) -> f64 {
+    const STEPS: u32 = 400;
+    let scene = scene();
+    let triangles = (0..scene.geometry.triangles.len()).map(|t| scene.geometry.corners(t));
+    let nearest = |[a, b, c]: [Vec3; 3]| {
+        let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
+        let grid = (0..=STEPS).flat_map(|i| (0..=STEPS - i).map(move |j| (i, j)));
+        let point = |(i, j): (u32, u32)| {
+            let (u, v) = (f64::from(i) / f64::from(STEPS), f64::from(j) / f64::from(STEPS));
+            (a + (b - a) * u + (c - a) * v).distance(from)
+        };
+        grid.map(point).fold(f64::INFINITY, f64::min)
+    };
+    // Only the nearest few triangles by their corners are worth a grid.
+    let mut all: Vec<[Vec3; 3]> = triangles.collect();
+    let reach = |t: &[Vec3; 3]| t.iter().map(|p| p.as_dvec3().distance(from)).fold(f64::INFINITY, f64::min);
+    all.sort_by(|a, b| reach(a).total_cmp(&reach(b)));
+    all.into_iter().take(24).map(nearest).fold(f64::INFINITY, f64::min)
 }

@@ -172,7 +172,7 @@ impl Light {
 
     /// Radius of the light's cone from a receiver at depth `z` where it passes depth `b`, in map
     /// widths there: gap tan(angle / 2) under a sun; R (z - b) / z under a light of radius R.
-    fn cone(&self, z: Approx, b: Approx) -> Approx {
+    pub(crate) fn cone(&self, z: Approx, b: Approx) -> Approx {
         let gap = (z - b).max(Approx::exact(0.0));
         if self.is_sun {
             gap * self.size * self.scale

@@ -5,6 +5,7 @@ pub(crate) mod approx;
 pub(crate) mod light;
 pub(crate) mod map;
 pub(crate) mod pattern;
+pub(crate) mod plain;
 pub(crate) mod pyramid;
 pub(crate) mod screen;
 pub(crate) mod variants;

@@ -17,13 +17,31 @@ pub(crate) struct Pattern {
 impl Pattern {
     /// Turns (0 to 1) at a pixel; the error is meant round the circle.
     pub(crate) fn turns(&self, pixel: [u32; 2]) -> Approx {
-        let shift = match self.seeding {
+        let shift = self.shift();
+        let noise = gradient_noise(pixel.map(|c| Approx::exact(f64::from(c) + 0.5) + shift));
+        (noise + Approx::exact(self.phase(pixel))).fract()
+    }
+
+    /// Of the noise with y times 4 (listing 7).
+    pub(crate) fn tall_turns(&self, pixel: [u32; 2]) -> Approx {
+        let [x, y] = pixel.map(|c| Approx::exact(f64::from(c) + 0.5) + self.shift());
+        let noise = gradient_noise([x, Approx::exact(4.0) * y]);
+        (noise + Approx::exact(self.phase(pixel))).fract()
+    }
+
+    /// Of white noise: 24 bits of a hash of the pixel.
+    pub(crate) fn white_turns(&self, pixel: [u32; 2]) -> f64 {
+        let [x, y] = pixel.map(|c| (f64::from(c) + 0.5 + self.shift().value) as u32);
+        let hash = pcg(x ^ pcg(y ^ 0x9e37_79b9));
+        (f64::from(hash >> 8) / 16_777_216.0 + self.phase(pixel)).fract()
+    }
+
+    fn shift(&self) -> Approx {
+        match self.seeding {
             // The step that engines ship (Jimenez 2014), over 64 frames.
             Seeding::Animated => Approx::constant(5.588238) * Approx::exact((self.frame % 64).into()),
             Seeding::Fresh | Seeding::Frozen => Approx::exact(0.0),
-        };
-        let noise = gradient_noise(pixel.map(|c| Approx::exact(f64::from(c) + 0.5) + shift));
-        (noise + Approx::exact(self.phase(pixel))).fract()
+        }
     }
 
     /// What is added to the noise, from 24 bits of a hash of hashes. Fresh: an offset for the frame,
