@@ -150,6 +150,11 @@ fn a_light_sweep_turns_only_the_light() {
         assert!((direction(frame).y - 50f32.to_radians().sin()).abs() < 2e-7);
     }
     assert!(path.frames.iter().all(|frame| frame.camera == path.frames[0].camera));
+    let slow = &scene.path("P6-slow").expect("P6-slow").frames;
+    let turned = slow[119].light.direction_from(Vec3::ZERO);
+    // A tenth as fast, to the same rounding.
+    assert!((turned.z.atan2(turned.x).to_degrees() - 31.19).abs() < 2e-5);
+    assert_eq!(slow[0], path.frames[0]);
 }
 
 #[test]
