@@ -5,12 +5,17 @@ use crate::{Scene, SceneError};
 use std::path::PathBuf;
 
 /// Name and text of each, in the order in which they are listed.
-const BUILTIN: [(&str, &str); 5] = [
+const BUILTIN: [(&str, &str); 10] = [
     ("edge-ladder", include_str!("../../../scenes/edge-ladder/scene.toml")),
+    ("contact", include_str!("../../../scenes/contact/scene.toml")),
     ("thin-poles", include_str!("../../../scenes/thin-poles/scene.toml")),
+    ("grating", include_str!("../../../scenes/grating/scene.toml")),
     ("stacked-blockers", include_str!("../../../scenes/stacked-blockers/scene.toml")),
     ("oblique-floor", include_str!("../../../scenes/oblique-floor/scene.toml")),
+    ("foliage", include_str!("../../../scenes/foliage/scene.toml")),
     ("colonnade", include_str!("../../../scenes/colonnade/scene.toml")),
+    ("curved-receivers", include_str!("../../../scenes/curved-receivers/scene.toml")),
+    ("point-light-room", include_str!("../../../scenes/point-light-room/scene.toml")),
 ];
 
 /// The names of the standard scenes, in the order in which they are listed.

@@ -44,7 +44,9 @@ fn lists_hold_the_standard_suite() {
         listed(what).iter().map(|row| row[key].as_str().expect("text").to_string()).collect()
     };
     let scenes = names("scenes", "scene");
-    for scene in ["edge-ladder", "thin-poles", "stacked-blockers", "oblique-floor", "colonnade"] {
+    let suite = ["edge-ladder", "thin-poles", "stacked-blockers", "oblique-floor", "colonnade"];
+    let more = ["contact", "grating", "foliage", "curved-receivers", "point-light-room"];
+    for scene in suite.into_iter().chain(more) {
         assert!(scenes.iter().any(|s| s == scene), "{scene}");
     }
     let variants = names("variants", "variant");

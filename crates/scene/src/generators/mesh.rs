@@ -2,8 +2,8 @@
 
 use crate::Material;
 use crate::model::{Model, Object};
-use glam::{DVec2, DVec3, Vec3};
-use std::f64::consts::TAU;
+use glam::{DAffine3, DVec2, DVec3, Vec3};
+use std::f64::consts::{PI, TAU};
 
 /// Positions and triangles of one shape.
 #[derive(Clone, Debug, Default)]
@@ -105,6 +105,66 @@ impl Mesh {
             mesh.quad([a, a + nv + 1, a + nv + 2, a + 1]);
         }
         mesh
+    }
+
+    /// A ramp that rises along x from the origin to `rise` at `run`, and ends there in a wall; as
+    /// wide to both sides of z = 0.
+    pub(crate) fn wedge(run: f64, rise: f64, half_width: f64) -> Self {
+        let side = |z: f64| [DVec3::new(0.0, 0.0, z), DVec3::new(run, 0.0, z), DVec3::new(run, rise, z)];
+        let positions = [side(-half_width), side(half_width)].concat();
+        let mut mesh = Self { positions, triangles: vec![[0, 2, 1], [3, 4, 5]] };
+        for quad in [[0, 1, 4, 3], [1, 2, 5, 4], [0, 3, 5, 2]] {
+            mesh.quad(quad);
+        }
+        mesh
+    }
+
+    /// A ball whose corners lie on the radius, its poles above and below the centre.
+    pub(crate) fn sphere(centre: DVec3, radius: f64, [rings, sectors]: [u32; 2]) -> Self {
+        let pole = DVec3::Y * radius;
+        let mut mesh = Self { positions: vec![centre - pole, centre + pole], triangles: Vec::new() };
+        for (ring, k) in (1..rings).flat_map(|ring| (0..sectors).map(move |k| (ring, k))) {
+            let (out, up) = (PI * f64::from(ring) / f64::from(rings)).sin_cos();
+            let (z, x) = (TAU * f64::from(k) / f64::from(sectors)).sin_cos();
+            mesh.positions.push(centre + DVec3::new(out * x, -up, out * z) * radius);
+        }
+        let at = |ring: u32, k: u32| 2 + (ring - 1) * sectors + k % sectors;
+        for k in 0..sectors {
+            mesh.triangles.push([0, at(1, k), at(1, k + 1)]);
+            for ring in 1..rings - 1 {
+                mesh.quad([at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), at(ring, k + 1)]);
+            }
+            mesh.triangles.push([1, at(rings - 1, k + 1), at(rings - 1, k)]);
+        }
+        mesh
+    }
+
+    /// A ring that lies level: `ring_radius` to the middle of a tube of `tube_radius`.
+    pub(crate) fn torus(
+        centre: DVec3,
+        [ring_radius, tube_radius]: [f64; 2],
+        [round, across]: [u32; 2],
+    ) -> Self {
+        let mut mesh = Self::default();
+        for (i, k) in (0..round).flat_map(|i| (0..across).map(move |k| (i, k))) {
+            let (z, x) = (TAU * f64::from(i) / f64::from(round)).sin_cos();
+            let (up, out) = (TAU * f64::from(k) / f64::from(across)).sin_cos();
+            let from_axis = ring_radius + tube_radius * out;
+            mesh.positions.push(centre + DVec3::new(from_axis * x, tube_radius * up, from_axis * z));
+        }
+        let at = |i: u32, k: u32| (i % round) * across + k % across;
+        for (i, k) in (0..round).flat_map(|i| (0..across).map(move |k| (i, k))) {
+            mesh.quad([at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)]);
+        }
+        mesh
+    }
+
+    /// Turned and moved; not mirrored, which would turn it inside out.
+    pub(crate) fn placed(mut self, world_from_shape: DAffine3) -> Self {
+        for position in &mut self.positions {
+            *position = world_from_shape.transform_point3(*position);
+        }
+        self
     }
 
     fn quad(&mut self, [a, b, c, d]: [u32; 4]) {

@@ -1,11 +1,17 @@
 //! Procedural scenes: the standard suite. Every length is in metres, y is up, the floor's top lies
 //! at y = 0. The light is not part of a generator, but blockers are placed so that their shadows
-//! under the suite's sun (elevation 50 degrees, azimuth 30) lie where the cameras look.
+//! under the suite's sun (elevation 50 degrees, azimuth 30) lie where the cameras look; only the
+//! room of D10 is lit by a lamp.
 
 mod colonnade;
+mod contact;
+mod curved_receivers;
 mod edge_ladder;
+mod foliage;
+mod grating;
 mod mesh;
 mod oblique_floor;
+mod point_light_room;
 mod stacked_blockers;
 #[cfg(test)]
 mod tests;
@@ -22,24 +28,39 @@ use serde::{Deserialize, Serialize};
 pub enum Generator {
     /// Plates at .1, .3, 1, 3 and 10 m: penumbra width against gap, at three angles to the map.
     EdgeLadder,
+    /// Boxes, balls and a ramp that touch the floor or hang millimetres above it: biases.
+    Contact,
     /// Level and upright poles of 5 mm to 5 cm radius: blockers that a search misses.
     ThinPoles,
+    /// Bars of 2 cm every 6 cm, 2 to 50 cm above the floor: moire and fine detail.
+    Grating,
     /// Blockers above each other, and stairs under two plates: light leaks.
     StackedBlockers,
     /// A hundred columns on a wide floor: undersampling at grazing angles.
     ObliqueFloor,
+    /// Four hundred leaves round a trunk: shadows that are all penumbra.
+    Foliage,
     /// A court with colonnades, drapes close to a wall and poles high above it.
     Colonnade,
+    /// A torus, a ball, steps and a slope that the sun grazes, with poles above them.
+    CurvedReceivers,
+    /// A closed room with a chair round its lamp: cube maps and perspective depth.
+    PointLightRoom,
 }
 
 impl Generator {
     pub(crate) fn model(self) -> Model {
         match self {
             Self::EdgeLadder => edge_ladder::model(),
+            Self::Contact => contact::model(),
             Self::ThinPoles => thin_poles::model(),
+            Self::Grating => grating::model(),
             Self::StackedBlockers => stacked_blockers::model(),
             Self::ObliqueFloor => oblique_floor::model(),
+            Self::Foliage => foliage::model(),
             Self::Colonnade => colonnade::model(),
+            Self::CurvedReceivers => curved_receivers::model(),
+            Self::PointLightRoom => point_light_room::model(),
         }
     }
 }
