@@ -44,7 +44,10 @@ fn choices() -> Vec<(VariantId, AreaLight, Receivers, Seeding)> {
     for variant in all_variants() {
         for light in still_life::lights_for(variant) {
             for receivers in [Receivers::Frame, Receivers::Anchors { count: 100 }] {
-                all.extend(SEEDINGS.map(|seeding| (variant, light, receivers, seeding)));
+                // Seedings are slots of their own: one variant shows that each fits.
+                let every = variant.variant.name == "chss-mask";
+                let seedings = &SEEDINGS[..if every { 3 } else { 1 }];
+                all.extend(seedings.iter().map(|&seeding| (variant, light, receivers, seeding)));
             }
         }
     }

@@ -46,22 +46,35 @@ pub(crate) enum Reading {
 #[derive(Debug, Default)]
 pub(crate) struct Bands {
     pub(crate) compared: usize,
-    /// Bands wider than the tolerance.
+    /// Results that the receiver's own answer does not hold.
     pub(crate) wide: usize,
     /// Results outside of their bands.
     pub(crate) outside: Vec<String>,
+}
+
+/// One in four at irregular places: enough, and fast.
+fn is_compared(index: usize) -> bool {
+    (index as u32).wrapping_mul(0x9e37_79b9) >> 30 == 0
 }
 
 /// What single precision may add to a mean of weighted comparisons beyond the receiver's place: a
 /// weight of a bilinear tap is known to 1e-4 (a place of 500 texels to 6e-5), the rest to 1e-6.
 const TOLERANCE: f64 = 5e-4;
 
+/// Whether a result lies between answers; counts it if not.
+fn within(value: f32, answers: &[f64], misses: &mut usize) -> bool {
+    let low = answers.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = answers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let inside = (low - TOLERANCE..=high + TOLERANCE).contains(&f64::from(value));
+    *misses += usize::from(!inside);
+    inside
+}
+
 impl Bands {
     fn add(&mut self, value: f32, answers: &[f64]) {
         self.compared += 1;
         let low = answers.iter().copied().fold(f64::INFINITY, f64::min);
         let high = answers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        self.wide += usize::from(high - low > TOLERANCE);
         let inside = (low - TOLERANCE..=high + TOLERANCE).contains(&f64::from(value));
         if !inside || value.is_nan() {
             self.outside.push(format!("{value} is not in {low}..{high}"));
@@ -74,14 +87,14 @@ impl Bands {
     pub(crate) fn check(&self, what: &str, [most_outside, most_wide]: [f64; 2]) {
         let share = |n: usize| n as f64 / self.compared as f64;
         let some: Vec<_> = self.outside.iter().take(5).collect();
-        assert!(self.compared > 1000, "{what}: only {} compared", self.compared);
+        assert!(self.compared > 800, "{what}: only {} compared", self.compared);
         assert!(
             share(self.outside.len()) <= most_outside,
             "{what}: {} of {} are outside: {some:#?}",
             self.outside.len(),
             self.compared
         );
-        assert!(share(self.wide) <= most_wide, "{what}: {:.3} of the bands are wide", share(self.wide));
+        assert!(share(self.wide) <= most_wide, "{what}: {:.3} needed a band", share(self.wide));
     }
 }
 
@@ -179,23 +192,28 @@ impl Ran {
         Plain { light, calibration, bias, pattern, dumps: &self.dumps }
     }
 
-    /// Every pixel, or every anchor, against the band of the plain twin.
+    /// One in four pixels, or anchors, against the band of the plain twin.
     pub(crate) fn compare_plain(&self, reading: Reading) -> Bands {
         let (light, mut bands) = (self.light(), Bands::default());
         let (plain, name) = (self.plain(&light, 0), self.case.variant.variant.name);
         let mut add = |receiver: &Receiver, value: f32| {
-            let spots = Spot::of(receiver).jittered();
-            bands.add(value, &spots.iter().flat_map(|s| shade(&plain, name, s)).collect::<Vec<_>>());
+            let spot = Spot::of(receiver);
+            let mut answers = shade(&plain, name, &spot);
+            // Most need no second question.
+            if !within(value, &answers, &mut bands.wide) {
+                answers.extend(spot.jittered().iter().flat_map(|s| shade(&plain, name, s)));
+            }
+            bands.add(value, &answers);
         };
         match reading {
             Reading::Pixels => {
-                for (index, &value) in self.values.iter().enumerate() {
+                for (index, &value) in self.values.iter().enumerate().filter(|(k, _)| is_compared(*k)) {
                     let pixel = [index as u32 % still_life::SIZE.0, index as u32 / still_life::SIZE.0];
                     self.surface(pixel).iter().for_each(|receiver| add(receiver, value));
                 }
             }
             Reading::Anchors => {
-                for (k, &value) in self.anchored.iter().enumerate() {
+                for (k, &value) in self.anchored.iter().enumerate().filter(|(k, _)| is_compared(*k)) {
                     let (position, normal) = (self.anchors.position[k], self.anchors.normal[k]);
                     add(&anchor(&self.anchors.view, position, normal), value);
                 }

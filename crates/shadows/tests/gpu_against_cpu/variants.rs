@@ -47,11 +47,11 @@ fn check_all(light: AreaLight) {
     bounded.for_each(|variant| check(&Case::new(variant, light)));
 }
 
-/// Shares of results outside of plain bands, and of wide bands.
+/// Shares of results outside of plain bands, and of those that the receiver's own answer does not hold.
 ///
 /// Not derived: the first is what unlucky roundings make (at most .004 were found with lavapipe), the
 /// second guards the twins. What is left is strict: planted errors put 1 % to 60 % outside.
-const PLAIN_LIMITS: [f64; 2] = [0.008, 0.5];
+const PLAIN_LIMITS: [f64; 2] = [0.008, 0.08];
 
 fn check_plain(light: AreaLight) {
     for variant in all_variants().into_iter().filter(|v| !is_bounded(v)) {

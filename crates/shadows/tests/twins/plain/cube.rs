@@ -3,6 +3,7 @@
 use super::{Plain, Spot, placed, tables};
 use crate::support::still_life;
 use glam::DVec3;
+use std::sync::OnceLock;
 use umbrage_shadows::{Calibration, ReceiverPlane};
 
 /// The light and its cube, from definitions: six faces of half the single map's side, three by two
@@ -33,7 +34,7 @@ pub(crate) fn shade(plain: &Plain<'_>, name: &str, spot: &Spot) -> Option<Vec<f6
         side: f64::from(plain.light.texels / 2),
     };
     let s = cube.seen(spot);
-    let angles = || (0..48).map(|k| f64::from(k) * 0.13);
+    let angles = || (0..24).map(|k| f64::from(k) * 0.26);
     let lit = |points: usize, radius: f64, angle: f64| {
         let kernel = placed(&tables::poisson(points), radius, angle);
         plain.mean(&kernel, |o| cube.nearest(&s, o))
@@ -98,7 +99,8 @@ impl Cube<'_> {
 
     /// The nearest surface to the light, by brute force over points of every triangle.
     fn nearest_surface(&self) -> f64 {
-        still_life::nearest_to(self.eye)
+        static FOUND: OnceLock<f64> = OnceLock::new();
+        *FOUND.get_or_init(|| still_life::nearest_to(self.eye))
     }
 
     /// Depth of the texel that a tap meets, and the reference at its centre.

@@ -16,8 +16,8 @@ pub(crate) fn shade(plain: &Plain<'_>, name: &str, spot: &Spot) -> Option<Vec<f6
     let taps = if name.contains("-8-") { 8 } else { 16 };
     let Some(s) = plain.shadowed(spot) else { return Some(vec![1.0]) };
     let radius = plain.fixed(s.depth);
-    let turned = |k: u32| placed(&tables::poisson(taps), radius, f64::from(k) * 0.13);
-    Some((0..48).map(|k| plain.mean(&turned(k), |o| plain.nearest(&s, o))).collect())
+    let turned = |k: u32| placed(&tables::poisson(taps), radius, f64::from(k) * 0.26);
+    Some((0..24).map(|k| plain.mean(&turned(k), |o| plain.nearest(&s, o))).collect())
 }
 
 fn one(plain: &Plain<'_>, name: &str, spot: &Spot) -> Option<f64> {
@@ -73,7 +73,7 @@ fn one(plain: &Plain<'_>, name: &str, spot: &Spot) -> Option<f64> {
 fn pcss(plain: &Plain<'_>, name: &str, spot: &Spot) -> Vec<f64> {
     let Some(s) = plain.shadowed(spot) else { return vec![1.0] };
     let at = |k: u32| {
-        let angle = f64::from(k) * 0.13;
+        let angle = f64::from(k) * 0.26;
         let search = placed(&tables::poisson(16), plain.search(s.depth), angle);
         let pairs: Vec<(f64, f64)> = search.iter().filter_map(|&o| plain.pair(&s, o)).collect();
         let counts = |p: &&(f64, f64)| name == "pcss-text" || p.0 < p.1;
@@ -88,7 +88,7 @@ fn pcss(plain: &Plain<'_>, name: &str, spot: &Spot) -> Vec<f64> {
         };
         plain.mean(&placed(&tables::poisson(32), radius, angle), |o| plain.nearest(&s, o))
     };
-    (0..48).map(at).collect()
+    (0..24).map(at).collect()
 }
 
 /// Where the document ends kernels at the search radius.
@@ -97,12 +97,7 @@ fn cap(plain: &Plain<'_>, name: &str, z: f64) -> f64 {
 }
 
 /// Blocker search and filter, one angle for both.
-fn chss(
-    plain: &Plain<'_>,
-    s: &Shadowed,
-    (taps, angle): (u32, f64),
-    law: &dyn Fn(f64, f64) -> f64,
-) -> f64 {
+fn chss(plain: &Plain<'_>, s: &Shadowed, (taps, angle): (u32, f64), law: &dyn Fn(f64, f64) -> f64) -> f64 {
     let blocker = plain.mean_blocker(s, &placed(&vogel(taps), plain.search(s.depth), angle));
     let radius = blocker.map_or(0.0, |b| law(s.depth, b));
     plain.mean(&placed(&vogel(16), radius, angle), |o| plain.bilinear(s, o))

@@ -4,6 +4,7 @@
 use crate::support;
 use crate::twins::approx::Approx;
 use crate::twins::light::Light;
+use std::sync::LazyLock;
 use umbrage_shadows::Calibration;
 
 /// Points listed as `vec2(x, y)` in a text.
@@ -15,9 +16,10 @@ fn points_in(source: &str) -> Vec<[f64; 2]> {
 
 /// The first of the second document's points.
 pub(crate) fn poisson(count: usize) -> Vec<[f64; 2]> {
-    let all = points_in(include_str!("../../../src/wgsl/kernel_poisson.wgsl"));
-    assert_eq!(all.len(), 64);
-    all[..count].to_vec()
+    static ALL: LazyLock<Vec<[f64; 2]>> =
+        LazyLock::new(|| points_in(include_str!("../../../src/wgsl/kernel_poisson.wgsl")));
+    assert_eq!(ALL.len(), 64);
+    ALL[..count].to_vec()
 }
 
 /// Jimenez's eight.
@@ -29,6 +31,12 @@ pub(crate) fn spiral() -> Vec<[f64; 2]> {
 
 /// Best-candidate points, out of the shader of the variant that uses them.
 pub(crate) fn blue(count: usize) -> Vec<[f64; 2]> {
+    static TABLES: [LazyLock<Vec<[f64; 2]>>; 2] =
+        [LazyLock::new(|| blue_of(16)), LazyLock::new(|| blue_of(32))];
+    TABLES[usize::from(count == 32)].to_vec()
+}
+
+fn blue_of(count: usize) -> Vec<[f64; 2]> {
     let name = format!("pcf-blue-{count}-ign");
     let id = support::variant_id(&name, Calibration::LightMatched);
     let recording = support::recording_of(id, 256);
