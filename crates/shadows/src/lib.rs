@@ -31,4 +31,4 @@ pub use technique::{
     Calibration, Info, Inputs, Lights, Projection, Receivers, Seeding, Technique, Variant, VariantId,
     select_variants,
 };
-pub use techniques::VARIANTS;
+pub use techniques::{PROBES, VARIANTS};

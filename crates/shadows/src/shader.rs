@@ -84,6 +84,14 @@ shared! {
     MIN_AXIS = "min_axis",
     FETCH_BILINEAR = "fetch_bilinear",
     PENUMBRA_MASK = "penumbra_mask",
+    HARDEN = "harden",
+    MIN_MAX_LEVEL = "min_max_level",
+    MEAN_LEVEL = "mean_level",
+    MAP_BOUNDS = "map_bounds",
+    EARLY_BOUNDS = "early_bounds",
+    TAP_LEVEL = "tap_level",
+    RASTER_PEEL = "raster_peel",
+    LIGHT_PATCHES = "light_patches",
 }
 
 /// The module's text.

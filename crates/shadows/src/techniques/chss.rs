@@ -23,6 +23,22 @@ pub(crate) struct Chss {
 /// The first document's own setting.
 pub(crate) const CHSS: Chss = Chss { search_taps: 32, filter_taps: 16, law: Law::Standard };
 
+/// Fragments of search and filter.
+pub(crate) fn uses() -> Vec<Fragment> {
+    vec![shader::HARDEN, shader::BLOCKER_SEARCH, shader::FILTER_DISC, shader::KERNEL_VOGEL]
+}
+
+impl Chss {
+    /// Constants of search and filter.
+    pub(crate) fn constants(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("SEARCH_TAPS", f64::from(self.search_taps)),
+            ("SEARCH_SCALE", SEARCH_SCALE),
+            ("FILTER_TAPS", f64::from(self.filter_taps)),
+        ]
+    }
+}
+
 impl Technique for Chss {
     fn info(&self) -> Info {
         Info {
@@ -53,12 +69,8 @@ impl Technique for Chss {
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
         let technique = Shade {
-            uses: vec![shader::BLOCKER_SEARCH, shader::FILTER_DISC, shader::KERNEL_VOGEL],
-            constants: vec![
-                ("SEARCH_TAPS", f64::from(self.search_taps)),
-                ("SEARCH_SCALE", SEARCH_SCALE),
-                ("FILTER_TAPS", f64::from(self.filter_taps)),
-            ],
+            uses: uses(),
+            constants: self.constants(),
             law: self.law,
             pattern: Some(shader::PATTERN_IGN),
             ..Shade::new("chss", OWN)

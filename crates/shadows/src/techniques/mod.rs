@@ -1,9 +1,15 @@
 //! Every technique and every variant. Adding a technique: its two files, a `mod` line and a line
 //! here. Adding a variant: a line here.
 
+mod backprojection;
+mod chs;
 mod chss;
+mod chss_early_out;
+mod chss_layers;
 mod chss_mask;
 mod chss_min;
+mod chss_minmax;
+mod chss_mips;
 mod hard;
 mod lerp;
 mod pcf_disc;
@@ -14,6 +20,9 @@ use crate::calibration::Law;
 use crate::{Projection, Variant};
 use chss_mask::{ChssMask, Searched, Smoothing, WithoutBlocker};
 use chss_min::{ChssMin, Empty};
+use backprojection::{Backprojection, Hidden};
+use chss_layers::{ChssLayers, Layers};
+use chss_minmax::{ChssMinmax, Output};
 use lerp::Base;
 use pcf_disc::{PcfDisc, Points, Rotation, Tap};
 use pcf_grid::PcfGrid;
@@ -75,8 +84,21 @@ pub static VARIANTS: &[Variant] = &[
     Variant { name: "chss-min", technique: &chss_min::PRINTED },
     Variant { name: "chss-min-sharp", technique: &ChssMin { smoothing: chss_min::Smoothing::Raw, ..chss_min::PRINTED } },
     Variant { name: "chss-min-listing", technique: &ChssMin { empty: Empty::Near, ..chss_min::PRINTED } },
+    // Other searches and other maps.
+    Variant { name: "chss-early-out", technique: &chss_early_out::ChssEarlyOut },
+    Variant { name: "chss-minmax", technique: &ChssMinmax { output: Output::Shadow } },
+    Variant { name: "chss-mips", technique: &chss_mips::ChssMips },
+    Variant { name: "chs", technique: &chs::Chs },
+    Variant { name: "chss-layers-2", technique: &ChssLayers { layers: Layers::Two } },
+    Variant { name: "chss-layers-4", technique: &ChssLayers { layers: Layers::Four } },
+    Variant { name: "backprojection", technique: &Backprojection { hidden: Hidden::Areas } },
+    Variant { name: "backprojection-bits", technique: &Backprojection { hidden: Hidden::Bits } },
     // A map in every direction.
     Variant { name: "hard-cube", technique: &hard::Hard { projection: Projection::Cube } },
     Variant { name: "pcf-cube", technique: &PcfDisc { projection: Projection::Cube, ..pcf_disc::POISSON_16 } },
     Variant { name: "pcss-cube", technique: &Pcss { law: Law::Point, projection: Projection::Cube, ..pcss::MENDED } },
 ];
+
+/// What a variant does on the way, as variants whose value is no shadow: for claims, never scored.
+pub static PROBES: &[Variant] =
+    &[Variant { name: "chss-minmax-fetches", technique: &ChssMinmax { output: Output::Fetches } }];

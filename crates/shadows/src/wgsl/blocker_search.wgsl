@@ -1,7 +1,8 @@
 // Mean depth of the blockers in a disc (first seed document, listing 3); negative without any.
 override SEARCH_TAPS: u32;
 
-fn mean_blocker(s: ShadowPoint, radius_uv: f32, angle: f32) -> f32 {
+// Sum of the blockers' depths, and how many they are.
+fn blocker_tally(s: ShadowPoint, radius_uv: f32, angle: f32) -> vec2<f32> {
     let turn = turn_of(angle);
     var sum = 0.0;
     var count = 0.0;
@@ -12,5 +13,12 @@ fn mean_blocker(s: ShadowPoint, radius_uv: f32, angle: f32) -> f32 {
             count += 1.0;
         }
     }
+    return vec2(sum, count);
+}
+
+fn mean_blocker(s: ShadowPoint, radius_uv: f32, angle: f32) -> f32 {
+    let tally = blocker_tally(s, radius_uv, angle);
+    let sum = tally.x;
+    let count = tally.y;
     return select(-1.0, sum / count, count > 0.0);
 }
