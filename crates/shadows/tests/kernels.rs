@@ -36,7 +36,8 @@ fn every_variant_describes_its_own_search_kernel_cap_and_convention() {
         assert!(parts.iter().all(|part| !part.is_empty()), "{}", id.name());
         // A search is spoken of exactly where a pass makes one.
         let all = constants(id, 256);
-        let searches = all.iter().any(|c| ["SEARCH_TAPS", "SHRINK"].contains(&c.0));
+        let searches =
+            all.iter().any(|c| ["SEARCH_TAPS", "SEARCH_CELLS", "SEARCH_SCALE", "SHRINK"].contains(&c.0));
         assert_eq!(kernels.search_radius != "none", searches, "{}", id.name());
     }
 }

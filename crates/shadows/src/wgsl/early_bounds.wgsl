@@ -4,9 +4,13 @@
 // for whatever rounding puts a tap beyond its disc.
 const FOOTPRINT_TEXELS: f32 = 1.5;
 
+// What all taps of search and filter find, if it is the same.
+const UNDECIDED: u32 = 0u;
+const ALL_LIT: u32 = 1u;
+const ALL_DARK: u32 = 2u;
+
 struct EarlyOut {
-    // 1: lit at every tap of search and filter. 0: dark at every one. -1: not known.
-    value: f32,
+    verdict: u32,
     fetches: u32,
 }
 
@@ -16,14 +20,14 @@ fn early_out(s: ShadowPoint, radius_uv: f32) -> EarlyOut {
     let bounds = map_bounds(s.uv, half_side);
     let references = reference_bounds(s, half_side);
     if references.y <= bounds.depths.x {
-        return EarlyOut(1.0, bounds.fetches);
+        return EarlyOut(ALL_LIT, bounds.fetches);
     }
     // No kernel is wider than that of the nearest depth. Its taps lie within 0.985 of its radius.
     let widest = kernel_radius_uv(s.depth, bounds.depths.x);
     if bounds.inside && bounds.depths.y < references.x && widest <= 1.001 * radius_uv {
-        return EarlyOut(0.0, bounds.fetches);
+        return EarlyOut(ALL_DARK, bounds.fetches);
     }
-    return EarlyOut(-1.0, bounds.fetches);
+    return EarlyOut(UNDECIDED, bounds.fetches);
 }
 
 // Least and largest depth that a texel of the square is compared with. Under either light the

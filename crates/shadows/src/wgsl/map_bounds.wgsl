@@ -20,7 +20,8 @@ fn map_bounds(uv: vec2<f32>, half_side: f32) -> MapBounds {
         return bounds;
     }
     let level = bounds_level(high - low);
-    let last = vec2<i32>(textureDimensions(pyramid, level)) - 1;
+    // Not asked of the level: software drivers answer for the first invocation's level alone.
+    let last = max(vec2<i32>(textureDimensions(pyramid)) >> vec2(u32(level)), vec2(1)) - 1;
     // Level 0 of the pyramid is the halved map.
     let first = min(max(low, vec2(0)) >> vec2(u32(level) + 1u), last);
     let end = min(min(high, vec2(size - 1)) >> vec2(u32(level) + 1u), last);

@@ -9,6 +9,8 @@ mod anchors;
 mod bias;
 mod constants;
 mod depth;
+mod early_bounds;
 mod kept_maps;
 mod nearest;
+mod pyramids;
 mod seeding;
