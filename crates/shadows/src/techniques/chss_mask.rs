@@ -2,8 +2,8 @@
 
 use crate::shader::{self, Fragment};
 use crate::stages::{
-    Blur, GAUSS_7, Likeness, PenumbraMask, Shade, SurfaceBlur, blur, max_filter, min_shrink, penumbra_mask, shade,
-    shadow_map, surface_blur,
+    Blur, GAUSS_7, Likeness, PenumbraMask, Shade, SurfaceBlur, blur, max_filter, min_shrink, penumbra_mask,
+    shade, shadow_map, surface_blur,
 };
 use crate::{Binding, Calibration, Info, Inputs, Kernels, Recording, Technique, TextureId};
 
@@ -85,7 +85,9 @@ impl Smoothing {
             Self::Raw => "not blurred",
             Self::Gauss => "blurred 7x7 with sigma 3",
             Self::DepthAware => "blurred 7x7 with sigma 3 across like depths",
-            Self::DistanceScaled => "blurred with sigma 3 texels at 10 m, inversely proportional to the distance",
+            Self::DistanceScaled => {
+                "blurred with sigma 3 texels at 10 m, inversely proportional to the distance"
+            }
             Self::MaxFirst => "the largest of 7x7, then blurred 7x7 with sigma 3",
         }
     }
@@ -114,7 +116,9 @@ impl ChssMask {
             Smoothing::Raw => mask,
             Smoothing::Gauss => blur(recording, mask, gauss),
             Smoothing::DepthAware => surface_blur(recording, inputs, (mask, surfaces(Likeness::Depth))),
-            Smoothing::DistanceScaled => surface_blur(recording, inputs, (mask, surfaces(Likeness::Distance))),
+            Smoothing::DistanceScaled => {
+                surface_blur(recording, inputs, (mask, surfaces(Likeness::Distance)))
+            }
             Smoothing::MaxFirst => {
                 let largest = max_filter(recording, mask);
                 blur(recording, largest, gauss)
@@ -136,11 +140,7 @@ impl Technique for ChssMask {
         Info {
             title: "contact hardening with a penumbra mask at W/4 x H/4",
             document: "T12: first document, section 2.2",
-            options: format!(
-                "search x {}, {}, {default}{map}",
-                self.search_scale,
-                self.smoothing.describe()
-            ),
+            options: format!("search x {}, {}, {default}{map}", self.search_scale, self.smoothing.describe()),
             taps: format!(
                 "{} search / {} + {} x 4",
                 self.search_taps,
