@@ -19,6 +19,13 @@ pub struct Kernels {
 /// Of kernels on Vogel's disc; its outermost tap lies at sqrt((taps - 0.5) / taps) of the radius.
 const DISC: &str = "radius of the disc in which the taps lie";
 
+/// Of means over squares.
+const SQUARE: &str = "half-side of the square that is averaged";
+
+/// Where searches by moments find the blocker.
+const MOMENTS_BLOCKER: &str = "(mean - p z) / (1 - p) of the search's moments, at least the nearest geometry's depth; \
+                               lit where Chebyshev's p > 0.99";
+
 impl Kernels {
     /// Of a filter on a disc that widens with the blocker's distance.
     pub(crate) fn hardening(calibration: Calibration, search_radius: String, kernel: String) -> Self {
@@ -44,6 +51,26 @@ impl Kernels {
             cap: "the same everywhere".into(),
             radius_convention: DISC.into(),
         }
+    }
+
+    /// Of a mean over a square of fixed size; `cut` says what else limits it.
+    pub(crate) fn fixed_square(calibration: Calibration, cut: &str) -> Self {
+        let kernel = format!("square of half-side = {}{cut}", calibration.fixed_radius());
+        let cap = calibration.largest_radius();
+        Self { search_radius: "none".into(), kernel, cap, radius_convention: SQUARE.into() }
+    }
+
+    /// Of a blocker search and a filter by moments, both over squares.
+    pub(crate) fn moments_square(calibration: Calibration, search_scale: f64, cut: &str) -> Self {
+        let kernel = format!("square of half-side = {}{cut}", calibration.radius_for(MOMENTS_BLOCKER));
+        Self { kernel, radius_convention: SQUARE.into(), ..Self::moments_disc(calibration, search_scale) }
+    }
+
+    /// Of a blocker search by moments and a filter on a disc.
+    pub(crate) fn moments_disc(calibration: Calibration, search_scale: f64) -> Self {
+        let search = format!("square of half-side = {} x {search_scale:.1}", calibration.largest_radius());
+        let kernel = calibration.radius_for(MOMENTS_BLOCKER);
+        Self::hardening(calibration, search, kernel)
     }
 
     /// Of a filter on a disc that knows no blocker.

@@ -92,6 +92,21 @@ shared! {
     TAP_LEVEL = "tap_level",
     RASTER_PEEL = "raster_peel",
     LIGHT_PATCHES = "light_patches",
+    MOMENT_DEPTH = "moment_depth",
+    MOMENTS_BASE = "moments_base",
+    MOMENTS_HALVE = "moments_halve",
+    MOMENTS_BOX = "moments_box",
+    MOMENTS_VARIANCE = "moments_variance",
+    MOMENTS_EXPONENTIAL = "moments_exponential",
+    MOMENTS_MIPS = "moments_mips",
+    MOMENTS_TABLE = "moments_table",
+    TABLE_LINE = "table_line",
+    SUMMAND_DEPTH = "summand_depth",
+    SUMMAND_TABLE = "summand_table",
+    CHEBYSHEV = "chebyshev",
+    BOUND_REDUCED = "bound_reduced",
+    BOUND_LISTING = "bound_listing",
+    MOMENTS_SEARCH = "moments_search",
 }
 
 /// The module's text.

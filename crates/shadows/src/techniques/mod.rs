@@ -10,23 +10,34 @@ mod chss_mask;
 mod chss_min;
 mod chss_minmax;
 mod chss_mips;
+mod esm;
 mod hard;
 mod lerp;
 mod pcf_disc;
 mod pcf_grid;
 mod pcss;
+mod vsm;
+mod vsm_pcf;
+mod vsm_poisson;
+mod vsm_search;
 
 use crate::calibration::Law;
+use crate::stages::Area;
 use crate::{Projection, Variant};
-use chss_mask::{ChssMask, Searched, Smoothing, WithoutBlocker};
-use chss_min::{ChssMin, Empty};
 use backprojection::{Backprojection, Hidden};
 use chss_layers::{ChssLayers, Layers};
+use chss_mask::{ChssMask, Searched, Smoothing, WithoutBlocker};
+use chss_min::{ChssMin, Empty};
 use chss_minmax::{ChssMinmax, Output};
+use esm::Esm;
 use lerp::Base;
 use pcf_disc::{PcfDisc, Points, Rotation, Tap};
 use pcf_grid::PcfGrid;
 use pcss::{Mean, Pcss};
+use vsm::{Bound, Vsm};
+use vsm_pcf::VsmPcf;
+use vsm_poisson::{Taps, VsmPoisson};
+use vsm_search::VsmSearch;
 
 /// All variants in display order; each exists in both calibrations.
 #[rustfmt::skip] // a table: a line a variant
@@ -97,6 +108,21 @@ pub static VARIANTS: &[Variant] = &[
     Variant { name: "hard-cube", technique: &hard::Hard { projection: Projection::Cube } },
     Variant { name: "pcf-cube", technique: &PcfDisc { projection: Projection::Cube, ..pcf_disc::POISSON_16 } },
     Variant { name: "pcss-cube", technique: &Pcss { law: Law::Point, projection: Projection::Cube, ..pcss::MENDED } },
+    // Moments of depth.
+    Variant { name: "vsm", technique: &Vsm { area: Area::Texel, bound: Bound::Plain } },
+    Variant { name: "vsm-listing", technique: &Vsm { area: Area::Texel, bound: Bound::Listing } },
+    Variant { name: "vsm-filtered", technique: &Vsm { area: Area::Filtered, bound: Bound::Plain } },
+    Variant { name: "vsm-lbr", technique: &Vsm { area: Area::Filtered, bound: Bound::Reduced } },
+    Variant { name: "vsm-mips", technique: &Vsm { area: Area::Mips, bound: Bound::Plain } },
+    Variant { name: "vsm-sat", technique: &Vsm { area: Area::Table, bound: Bound::Plain } },
+    Variant { name: "vsm-search-mips", technique: &VsmSearch { area: Area::Mips, projection: Projection::Single } },
+    Variant { name: "vsm-guard", technique: &VsmSearch { area: Area::Mips, projection: Projection::Guarded } },
+    Variant { name: "vsm-search-sat", technique: &VsmSearch { area: Area::Table, projection: Projection::Single } },
+    Variant { name: "vsm-poisson", technique: &VsmPoisson { taps: Taps::Matched } },
+    Variant { name: "vsm-poisson-lod0", technique: &VsmPoisson { taps: Taps::Finest } },
+    Variant { name: "vsm-poisson-listing", technique: &VsmPoisson { taps: Taps::Listing } },
+    Variant { name: "vsm-search-pcf", technique: &VsmPcf { filter_taps: 16 } },
+    Variant { name: "esm", technique: &Esm },
 ];
 
 /// What a variant does on the way, as variants whose value is no shadow: for claims, never scored.

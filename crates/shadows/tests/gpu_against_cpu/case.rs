@@ -8,7 +8,7 @@ use crate::twins::screen::{Receiver, anchor, surface};
 use crate::twins::variants::{Answer, Twin};
 use umbrage_frame::{Anchors, Image};
 use umbrage_scene::{AreaLight, Scene};
-use umbrage_shadows::{Bias, Dump, Renderer, Seeding, VariantId};
+use umbrage_shadows::{Bias, Dump, Pass, Renderer, Seeding, VariantId};
 
 /// Side of the tests' shadow map: not a power of two, so that no division is exact by luck.
 pub(crate) const MAP_TEXELS: u32 = 500;
@@ -106,6 +106,19 @@ pub(crate) struct Tally {
     pub(crate) open: usize,
     /// Results outside of their bounds.
     pub(crate) wrong: Vec<String>,
+}
+
+/// The constants of all compute passes of a case.
+pub(crate) fn constants(case: &Case) -> Vec<(&'static str, f64)> {
+    let (scene, view) = (still_life::scene(), still_life::view_of(&still_life::camera()));
+    let mut gpu = support::gpu();
+    let mut renderer = Renderer::new(&mut gpu, &scene, MAP_TEXELS).expect("fits");
+    let recording = renderer.recording(case.variant, (&view, &case.light), (case.seeding, case.pattern));
+    let of_pass = |pass: &Pass| match pass {
+        Pass::Raster(_) => Vec::new(),
+        Pass::Compute(compute) => compute.constants.clone(),
+    };
+    recording.expect("fits").passes.iter().flat_map(of_pass).collect()
 }
 
 impl std::fmt::Debug for Case {

@@ -13,6 +13,7 @@ mod twins;
 
 mod case;
 mod fragments;
+mod moments;
 mod planted;
 mod stages;
 mod variants;
