@@ -88,6 +88,7 @@ fn scene_card(scene: &Scene, texels: u32) -> SceneCard {
         LightKind::Local => {
             format!("perspective, {:.1} degrees", 2.0 * (0.5 / map.scale).atan().to_degrees())
         }
+        LightKind::Cube => "six perspective faces".into(),
     };
     let hash: String = scene.content_hash().iter().take(16).map(|b| format!("{b:02x}")).collect();
     SceneCard {

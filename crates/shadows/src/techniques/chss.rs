@@ -23,6 +23,23 @@ pub(crate) struct Chss {
 /// The first document's own setting.
 pub(crate) const CHSS: Chss = Chss { search_taps: 32, filter_taps: 16, law: Law::Standard };
 
+impl Chss {
+    /// The one pass, wherever it is run.
+    pub(super) fn shading(&self) -> Shade {
+        Shade {
+            uses: vec![shader::BLOCKER_SEARCH, shader::FILTER_DISC, shader::KERNEL_VOGEL],
+            constants: vec![
+                ("SEARCH_TAPS", f64::from(self.search_taps)),
+                ("SEARCH_SCALE", SEARCH_SCALE),
+                ("FILTER_TAPS", f64::from(self.filter_taps)),
+            ],
+            law: self.law,
+            pattern: Some(shader::PATTERN_IGN),
+            ..Shade::new("chss", OWN)
+        }
+    }
+}
+
 impl Technique for Chss {
     fn info(&self) -> Info {
         Info {
@@ -52,17 +69,6 @@ impl Technique for Chss {
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
-        let technique = Shade {
-            uses: vec![shader::BLOCKER_SEARCH, shader::FILTER_DISC, shader::KERNEL_VOGEL],
-            constants: vec![
-                ("SEARCH_TAPS", f64::from(self.search_taps)),
-                ("SEARCH_SCALE", SEARCH_SCALE),
-                ("FILTER_TAPS", f64::from(self.filter_taps)),
-            ],
-            law: self.law,
-            pattern: Some(shader::PATTERN_IGN),
-            ..Shade::new("chss", OWN)
-        };
-        shade(recording, inputs, technique);
+        shade(recording, inputs, self.shading());
     }
 }

@@ -44,8 +44,7 @@ pub(crate) enum Empty {
 }
 
 /// The first document's own setting.
-pub(crate) const PRINTED: ChssMin =
-    ChssMin { filter_taps: 16, smoothing: Smoothing::Box, empty: Empty::Far };
+pub(crate) const PRINTED: ChssMin = ChssMin { filter_taps: 16, smoothing: Smoothing::Box, empty: Empty::Far };
 
 impl Technique for ChssMin {
     fn info(&self) -> Info {

@@ -1,20 +1,27 @@
 //! Every technique and every variant. Adding a technique: its two files, a `mod` line and a line
 //! here. Adding a variant: a line here.
 
+mod checker;
 mod chss;
 mod chss_mask;
 mod chss_min;
 mod hard;
 mod lerp;
+mod low_res;
 mod pcf_disc;
 mod pcf_grid;
 mod pcss;
+mod screen_blur;
+mod temporal_checker;
+mod temporal_mask;
 
 use crate::calibration::Law;
 use crate::{Projection, Variant};
+use checker::{Checker, Depths, Noise, Radius};
 use chss_mask::{ChssMask, Searched, Smoothing, WithoutBlocker};
 use chss_min::{ChssMin, Empty};
 use lerp::Base;
+use low_res::{LowRes, Upsample};
 use pcf_disc::{PcfDisc, Points, Rotation, Tap};
 use pcf_grid::PcfGrid;
 use pcss::{Mean, Pcss};
@@ -75,6 +82,17 @@ pub static VARIANTS: &[Variant] = &[
     Variant { name: "chss-min", technique: &chss_min::PRINTED },
     Variant { name: "chss-min-sharp", technique: &ChssMin { smoothing: chss_min::Smoothing::Raw, ..chss_min::PRINTED } },
     Variant { name: "chss-min-listing", technique: &ChssMin { empty: Empty::Near, ..chss_min::PRINTED } },
+    // Fewer pixels.
+    Variant { name: "checker-chss", technique: &checker::LISTED },
+    Variant { name: "checker-chss-plain", technique: &Checker { noise: Noise::Plain, ..checker::LISTED } },
+    Variant { name: "checker-chss-16bit", technique: &Checker { depths: Depths::Bits16, ..checker::LISTED } },
+    Variant { name: "checker-mask", technique: &Checker { radius: Radius::Mask, ..checker::LISTED } },
+    Variant { name: "half-chss", technique: &low_res::HALF },
+    Variant { name: "half-chss-bilateral", technique: &LowRes { upsample: Upsample::Bilateral, ..low_res::HALF } },
+    Variant { name: "three-quarter-chss", technique: &LowRes { numerator: 3, denominator: 4, upsample: Upsample::Bilateral } },
+    Variant { name: "temporal-checker", technique: &temporal_checker::TemporalChecker },
+    Variant { name: "temporal-mask", technique: &temporal_mask::TemporalMask },
+    Variant { name: "screen-blur", technique: &screen_blur::WIDEST_32 },
     // A map in every direction.
     Variant { name: "hard-cube", technique: &hard::Hard { projection: Projection::Cube } },
     Variant { name: "pcf-cube", technique: &PcfDisc { projection: Projection::Cube, ..pcf_disc::POISSON_16 } },

@@ -30,7 +30,8 @@ fn round(a: f64, b: f64) -> f64 {
 fn gradient_noise_and_its_seedings() {
     for seeding in [Seeding::Fresh, Seeding::Frozen, Seeding::Animated] {
         for [frame, seed] in [[0, 0], [1, 0], [63, 2], [64, 2]] {
-            let case = probed("return pattern(r.place, r.position);", Calibration::LightMatched, still_life::sun());
+            let case =
+                probed("return pattern(r.place, r.position);", Calibration::LightMatched, still_life::sun());
             let ran = Case { seeding, pattern: [frame, seed], ..case }.run();
             let twin = Pattern { seeding, frame, seed, pass: 0 };
             for (pixel, value) in seen(&ran) {

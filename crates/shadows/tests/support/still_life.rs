@@ -4,8 +4,8 @@
 
 use glam::{Mat4, Quat, Vec3};
 use umbrage_frame::View;
-use umbrage_shadows::VariantId;
 use umbrage_scene::{AreaLight, Camera, Geometry, Material, Scene, ShadowRegion};
+use umbrage_shadows::VariantId;
 
 /// Width and height of the test pictures.
 pub(crate) const SIZE: (u32, u32) = (96, 54);
