@@ -37,7 +37,7 @@ impl Technique for TemporalChecker {
     fn kernels(&self, calibration: Calibration) -> Kernels {
         let full = CHSS.kernels(calibration);
         let kernel = format!(
-            "{}; the pixels of the other colour from the frame before, reprojected, where the surface agrees to {AGREEMENT} \
+            "{}; the pixels of the other colour from the frame before, reprojected and interpolated, where the surface agrees to {AGREEMENT} \
              of its depth; else {}",
             full.kernel,
             upsampling(calibration)

@@ -1,8 +1,10 @@
 // A checkerboard that flips in every frame (T15): what this frame left out, the one before computed.
-// The receiver is looked up where the frame before saw it, at the nearest pixel that it computed;
-// the value counts if the surface there lies in the receiver's plane, to AGREEMENT of its depth.
-// Otherwise the pixel is filled from this frame's neighbours. An anchor reads as the pixel that it
-// projects to does, with its own place in the frame before.
+// The receiver is looked up where the frame before saw it, between the four pixels nearest to it
+// that it computed (they make a grid that is turned by 45 degrees: bilinear in it, so that a still
+// camera finds the very pixel). One of them counts if its surface lies in the receiver's plane, to
+// AGREEMENT of its depth. Where less than half of the weight counts, the pixel is filled from this
+// frame's neighbours. An anchor reads as the pixel that it projects to does, with its own place in
+// the frame before.
 @group(0) @binding(9) var packed_before: texture_2d<f32>;
 @group(0) @binding(10) var depth_before: texture_2d<f32>;
 @group(0) @binding(11) var<uniform> past: Globals;
@@ -14,28 +16,37 @@ fn shade(r: Receiver) -> f32 {
     if is_computed(pixel, parity_of(globals.frame_index)) {
         return textureLoad(packed, packed_texel(pixel), 0).x;
     }
-    let before = computed_before(r.position);
-    if in_frame(before) && agrees(r, before) {
-        return textureLoad(packed_before, packed_texel(before), 0).x;
+    let before = reprojected(r);
+    if before.y < 0.5 {
+        return filled(r, pixel);
     }
-    return filled(r, pixel);
+    return before.x / before.y;
 }
 
-// The pixel nearest to a point among those that the frame before computed; outside the frame where
-// the point lay behind the camera.
-fn computed_before(position: vec3<f32>) -> vec2<i32> {
-    let clip = past.clip_from_world * vec4(position, 1.0);
+// Weighted value and weight of what the frame before knows of a receiver.
+fn reprojected(r: Receiver) -> vec2<f32> {
+    let clip = past.clip_from_world * vec4(r.position, 1.0);
+    // Behind the camera it was not seen.
     if clip.w <= 0.0 {
-        return vec2(-1);
+        return vec2(0.0);
     }
-    let place = (clip.xy / clip.w * vec2(0.5, -0.5) + 0.5) * vec2<f32>(past.frame_size);
-    let pixel = vec2<i32>(floor(place));
-    if is_computed(pixel, parity_of(past.frame_index)) {
-        return pixel;
+    let place = (clip.xy / clip.w * vec2(0.5, -0.5) + 0.5) * vec2<f32>(past.frame_size) - 0.5;
+    let parity = parity_of(past.frame_index);
+    let turned_place = 0.5 * (vec2(place.x + place.y, place.x - place.y) + f32(parity));
+    let base = floor(turned_place);
+    let toward = turned_place - base;
+    var sum = vec2(0.0);
+    for (var k = 0u; k < 4u; k++) {
+        let step = vec2(k & 1u, k >> 1u);
+        let diagonal = vec2<i32>(base) + vec2<i32>(step);
+        let pixel = vec2(diagonal.x + diagonal.y - parity, diagonal.x - diagonal.y);
+        let sides = select(1.0 - toward, toward, step == vec2(1u));
+        if in_frame(pixel) && agrees(r, pixel) {
+            let lit = textureLoad(packed_before, packed_texel(pixel), 0).x;
+            sum += sides.x * sides.y * vec2(lit, 1.0);
+        }
     }
-    let lean = place - floor(place) - 0.5;
-    let step = select(vec2(1), vec2(-1), lean < vec2(0.0));
-    return pixel + select(vec2(0, step.y), vec2(step.x, 0), abs(lean.x) >= abs(lean.y));
+    return sum;
 }
 
 fn agrees(r: Receiver, before: vec2<i32>) -> bool {
