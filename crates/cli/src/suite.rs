@@ -71,10 +71,14 @@ impl Plan {
         let own = file.size.map(|[w, h]| check_size((w, h))).transpose();
         let own = own.map_err(|e| CliError::Usage(format!("the size of suite \"{}\": {e}", file.name)))?;
         let size = args.view.size.or(own.filter(|_| !quick));
+        let variants = variants_of(&args.variants)?;
+        if frames == 1 {
+            check_history(&variants)?;
+        }
         Ok(Self {
             name: if quick { format!("{}-quick", file.name) } else { file.name },
             jobs,
-            variants: variants_of(&args.variants)?,
+            variants,
             size: size.unwrap_or(if quick { (192, 108) } else { (320, 180) }),
             frames,
             window: frames.min(WINDOW),
@@ -83,6 +87,18 @@ impl Plan {
             basis_samples: 1024,
         })
     }
+}
+
+/// One frame says nothing about what comes from the frames before it: its score would pass for that
+/// of a still camera.
+fn check_history(variants: &[VariantId]) -> Result<(), CliError> {
+    let looks_back = |id: &&VariantId| id.variant.technique.history() > 0;
+    let Some(first) = variants.iter().find(looks_back) else { return Ok(()) };
+    let name = first.variant.name;
+    Err(CliError::Usage(format!(
+        "{name} has a history: it needs the frames before it, and one frame gives it no temporal score\n  \
+         help: give --frames 2 or more, or choose others with --variant"
+    )))
 }
 
 fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {

@@ -3,6 +3,7 @@
 use crate::error::CliError;
 use umbrage_frame::View;
 use umbrage_scene::{CameraPath, PathFrame, Scene};
+use umbrage_shadows::VARIANTS;
 
 /// The view of a path's frame in a picture of this size.
 pub(crate) fn view_of(frame: &PathFrame, (width, height): (u32, u32)) -> View {
@@ -15,6 +16,14 @@ pub(crate) fn view_of(frame: &PathFrame, (width, height): (u32, u32)) -> View {
         camera_from_world,
         yfov_radians: camera.yfov_radians,
     }
+}
+
+/// The views of the frames before one of a path, newest first: as many as any technique looks back,
+/// fewer at the start of the path, before which the camera stood still.
+pub(crate) fn past_of(path: &CameraPath, number: u32, size: (u32, u32)) -> Vec<View> {
+    let most = VARIANTS.iter().map(|v| v.technique.history() as u32).max().unwrap_or(0);
+    let numbers = (1..=most).map_while(|age| number.checked_sub(age));
+    numbers.filter_map(|n| Some(view_of(path.frames.get(n as usize)?, size))).collect()
 }
 
 /// The path of that name, or the scene's first.

@@ -296,7 +296,8 @@ impl VariantId {
         })
     }
 
-    /// Passes of one frame, in order (those of a static light's map first).
+    /// Passes of one frame, in order (those of a static light's map first), without those that
+    /// belong to the frames before it.
     pub fn passes(&self, scene: &Scene) -> Vec<&'static str> {
         let view = View {
             width: 64,
@@ -319,7 +320,7 @@ impl VariantId {
             age: 0,
         };
         let recording = inputs.recorded(*self, [0, 0]);
-        recording.passes.iter().map(|p| p.label()).collect()
+        recording.passes.iter().filter(|p| !p.is_earlier()).map(|p| p.label()).collect()
     }
 
     /// The three kinds of bias, in words.

@@ -107,6 +107,19 @@ shared! {
     BOUND_REDUCED = "bound_reduced",
     BOUND_LISTING = "bound_listing",
     MOMENTS_SEARCH = "moments_search",
+    CAMERA_DEPTH = "camera_depth",
+    FRAME_DEPTH = "frame_depth",
+    WEIGHT_NONE = "weight_none",
+    WEIGHT_DEPTH = "weight_depth",
+    WEIGHT_PLANE = "weight_plane",
+    CHECKERBOARD = "checkerboard",
+    TARGET_CHECKER = "target_checker",
+    TARGET_SCALED = "target_scaled",
+    ENTRY_TARGET = "entry_target",
+    FILL_CHECKER = "fill_checker",
+    SCREEN_PENUMBRA = "screen_penumbra",
+    SCREEN_ROWS = "screen_rows",
+    HALF_DISC = "half_disc",
 }
 
 /// The module's text.

@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::output::print;
 use crate::scenes::find_scene;
 use crate::suite::variants_of;
-use crate::views::{frame_of, path_of, view_of};
+use crate::views::{frame_of, past_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
 use umbrage_shadows::{Calibration, Dump, LightMap, ReceiverPlane, Renderer, Seeding};
 
@@ -21,6 +21,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     for number in args.frame..args.frame.saturating_add(args.frames) {
         let frame = frame_of(path, number)?;
         let view = view_of(frame, size);
+        renderer.set_past(past_of(path, number, size));
         for &variant in &variants {
             let pattern = (Seeding::Frozen, [number, 0]);
             let stem = format!("{}.{number:04}", variant.name().replace('/', "-"));
@@ -81,9 +82,10 @@ fn bias(calibration: Calibration, map: &LightMap) -> serde_json::Value {
 /// Channels as viewers expect them: a map is a `Z` or `V`, a normal is `X Y Z`.
 fn layers(dump: &Dump) -> Vec<Layer> {
     let names: &[&str] = match (dump.label, dump.channels.len()) {
-        ("camera-depth", _) => &["depth.Z"],
-        ("camera-normal", _) => &["normal.X", "normal.Y", "normal.Z"],
+        ("camera-depth" | "earlier-1-depth" | "earlier-2-depth" | "earlier-3-depth", _) => &["depth.Z"],
+        (label, _) if label.ends_with("-normal") => &["normal.X", "normal.Y", "normal.Z"],
         (label, _) if label.contains("penumbra") => &["penumbra.V"],
+        (label, _) if label.contains("lit-") => &["visibility.V", "radius.V"],
         _ => &["light-depth.Z"],
     };
     names.iter().zip(&dump.channels).map(|(name, image)| ((*name).to_string(), image.clone())).collect()

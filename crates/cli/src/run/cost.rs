@@ -6,7 +6,7 @@ use crate::suite::Plan;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 use umbrage_report::{Cost, PassCost};
-use umbrage_shadows::{Renderer, Seeding, VariantId};
+use umbrage_shadows::{Renderer, Seeding, Timing, VariantId};
 
 /// Times of one variant in one window.
 pub(crate) struct CostOf {
@@ -27,6 +27,12 @@ const WAKE_UP: Duration = Duration::from_secs(1);
 /// The camera's depth is every renderer's own: it is no part of a shadow's cost.
 const NOT_OURS: &str = "depth-prepass";
 
+/// Whether a pass is a cost of this frame's shadow. What a history makes again was the cost of the
+/// frames before.
+fn is_ours(timing: &Timing) -> bool {
+    timing.label != NOT_OURS && !timing.earlier
+}
+
 /// Times every variant on the middle frame. Passes whose results are kept are timed when they run
 /// for the first time in a scene.
 pub(super) fn measure_cost(
@@ -35,6 +41,7 @@ pub(super) fn measure_cost(
     plan: &Plan,
 ) -> Result<Vec<CostOf>, CliError> {
     let (view, light) = &window.frames[window.middle()];
+    renderer.set_past(window.past(window.middle()));
     let pattern = (Seeding::Frozen, [0, 0]);
     let started = Instant::now();
     while started.elapsed() < WAKE_UP {
@@ -48,9 +55,8 @@ pub(super) fn measure_cost(
         let mut cost = CostOf { variant: variant.name(), frames: vec![], passes: vec![], kept_ms: 0.0 };
         for repeat in 0..WARM_UP + REPEATS {
             let timings = renderer.time_frame(variant, (view, light), pattern)?;
-            cost.kept_ms +=
-                timings.iter().filter(|t| t.kept && t.label != NOT_OURS).map(|t| t.ms).sum::<f64>();
-            let ours: Vec<_> = timings.iter().filter(|t| !t.kept && t.label != NOT_OURS).collect();
+            let (kept, ours): (Vec<_>, Vec<_>) = timings.iter().filter(|t| is_ours(t)).partition(|t| t.kept);
+            cost.kept_ms += kept.iter().map(|t| t.ms).sum::<f64>();
             if repeat >= WARM_UP && !ours.is_empty() {
                 cost.passes = ours.iter().map(|t| t.label).collect();
                 cost.frames.push(ours.iter().map(|t| t.ms).collect());

@@ -54,6 +54,7 @@ pub(super) fn measure(
     let anchored = window_tiles(&panel, &window.truth, &window.tiling)?;
     let maps = point_maps(&panel, &window.truth, &window.tiling)?;
     let (view, light) = &window.frames[window.middle()];
+    renderer.set_past(window.past(window.middle()));
     let shipped = (Seeding::Frozen, [window.first + window.middle() as u32, 0]);
     let values = renderer.shade_frame(variant, (view, light), shipped)?.values;
     let (width, height) = window.size();

@@ -38,6 +38,7 @@ pub(super) fn shade_panel(
     }
     let mut values = Vec::with_capacity(points * draw.frames * draw.seeds as usize);
     for (frame, (view, light)) in window.frames.iter().take(draw.frames).enumerate() {
+        renderer.set_past(window.past(frame));
         let pixels = match reading {
             Reading::Anchored => None,
             Reading::Pixels => Some(window.anchors.pixels_in(view)),

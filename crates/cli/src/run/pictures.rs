@@ -43,6 +43,7 @@ pub(super) fn keep_frames(
     let (width, height) = window.size();
     for (frame, (view, light)) in window.frames.iter().enumerate() {
         let number = window.first + frame as u32;
+        renderer.set_past(window.past(frame));
         let shaded = renderer.shade_frame(variant, (view, light), (Seeding::Frozen, [number, 0]))?;
         let mask = Image::from_pixels(width, height, shaded.values);
         write_exr(&folder.join(format!("mask.{number:04}.exr")), &[("visibility.V".into(), mask)])?;

@@ -21,7 +21,7 @@ const NUMBERS: &str = "numbers.json";
 const PICTURES: &str = "pictures.exr";
 const CHECKSUM: &str = "checksum";
 
-/// The content that a unit follows from: truth, views, the recorded passes with their shaders and
+/// The content that a unit follows from: truth, views (those before the window too), the recorded passes with their shaders and
 /// constants, adapter and driver, seeds, tool version.
 pub(super) fn key(
     window: &Window,
@@ -38,9 +38,10 @@ pub(super) fn key(
     add(&window.truth_key);
     add(&variant.name());
     add(&format!("{} {:?} {}", plan.seeds, plan.size, window.first));
-    for (view, light) in &window.frames {
-        add(&format!("{view:?} {light:?}"));
+    for (frame, (view, light)) in window.frames.iter().enumerate() {
+        add(&format!("{view:?} {light:?} {:?}", window.past(frame)));
     }
+    renderer.set_past(window.past(0));
     for seeding in [Seeding::Fresh, Seeding::Frozen, Seeding::Animated] {
         let (view, light) = &window.frames[0];
         add(&format!("{:?}", renderer.recording(variant, (view, light), (seeding, [0, 0]))?));

@@ -2,7 +2,7 @@
 
 use crate::error::CliError;
 use crate::suite::Plan;
-use crate::views::view_of;
+use crate::views::{past_of, view_of};
 use glam::Vec3;
 use std::time::Instant;
 use umbrage_frame::{AgreementLimits, Anchors, Image, View};
@@ -26,6 +26,8 @@ pub(super) struct Window {
     pub(super) first: u32,
     /// View and light of each frame.
     pub(super) frames: Vec<(View, AreaLight)>,
+    /// Per frame, the views of those before it, newest first, also from before the window.
+    pasts: Vec<Vec<View>>,
     pub(super) anchors: Anchors,
     /// At the anchors.
     pub(super) truth: PanelTruth,
@@ -73,6 +75,8 @@ impl Window {
         let started = Instant::now();
         let frames: Vec<(View, AreaLight)> =
             request.frames.iter().map(|f| (view_of(f, plan.size), f.light)).collect();
+        let numbers = request.first..request.first + frames.len() as u32;
+        let pasts = numbers.map(|number| past_of(request.path, number, plan.size)).collect();
         let (middle_view, middle_light) = frames[frames.len() / 2];
         let hits = tracer.primary(&middle_view);
         let anchors = Anchors::of(&hits.gbuffer);
@@ -103,6 +107,7 @@ impl Window {
             first: request.first,
             shading: shading(request.scene, &hits, &middle_light),
             frames,
+            pasts,
             anchors,
             truth,
             pixel_truth,
@@ -124,6 +129,11 @@ impl Window {
     pub(super) fn salt(&self) -> u32 {
         let name = format!("{}/{}", self.scene, self.path);
         name.bytes().fold(0x811c_9dc5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+    }
+
+    /// Where the camera was in the frames before one of the window, newest first.
+    pub(super) fn past(&self, frame: usize) -> Vec<View> {
+        self.pasts[frame].clone()
     }
 
     /// Index of the middle frame.

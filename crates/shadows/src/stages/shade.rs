@@ -47,28 +47,35 @@ pub(crate) fn shade(recording: &mut Recording, inputs: &Inputs<'_>, technique: S
     fragments.extend(technique.pattern.into_iter().flat_map(|p| seeded(p, inputs.seeding)));
     let mut bindings = vec![Binding::Globals, Binding::ShadowMap(map), Binding::Values, Binding::Nearest];
     bindings.extend(technique.reads);
-    let groups = match inputs.receivers {
-        Receivers::Frame => {
-            let surfaces = depth_prepass(recording, inputs);
-            fragments.extend([shader::SURFACE, shader::RECEIVER_FRAME]);
-            bindings.extend([Binding::CameraDepth(surfaces.depth), Binding::CameraNormal(surfaces.normal)]);
-            [inputs.view.width.div_ceil(8), inputs.view.height.div_ceil(8)]
-        }
-        Receivers::Anchors { count } => {
-            fragments.push(shader::RECEIVER_ANCHOR);
-            bindings.push(Binding::Anchors);
-            let groups = count.div_ceil(64);
-            [groups.min(ROW_GROUPS), groups.div_ceil(ROW_GROUPS)]
-        }
-    };
-    recording.passes.push(Pass::Compute(ComputePass {
+    let pass = ComputePass {
         label: technique.label,
         shader: fragments,
         entry: "shade_receivers",
         constants,
         bindings,
-        groups,
-    }));
+        groups: [0, 0],
+    };
+    over_receivers(recording, inputs, pass);
+}
+
+/// Adds a pass over pixels or anchors, with the fragments and bindings that receivers need.
+pub(super) fn over_receivers(recording: &mut Recording, inputs: &Inputs<'_>, mut pass: ComputePass) {
+    pass.groups = match inputs.receivers {
+        Receivers::Frame => {
+            let surfaces = depth_prepass(recording, inputs);
+            pass.shader.extend([shader::SURFACE, shader::RECEIVER_FRAME]);
+            pass.bindings
+                .extend([Binding::CameraDepth(surfaces.depth), Binding::CameraNormal(surfaces.normal)]);
+            [inputs.view.width.div_ceil(8), inputs.view.height.div_ceil(8)]
+        }
+        Receivers::Anchors { count } => {
+            pass.shader.push(shader::RECEIVER_ANCHOR);
+            pass.bindings.push(Binding::Anchors);
+            let groups = count.div_ceil(64);
+            [groups.min(ROW_GROUPS), groups.div_ceil(ROW_GROUPS)]
+        }
+    };
+    recording.passes.push(Pass::Compute(pass));
 }
 
 /// A pattern with the wanted seeding.

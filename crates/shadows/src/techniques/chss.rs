@@ -37,6 +37,17 @@ impl Chss {
             ("FILTER_TAPS", f64::from(self.filter_taps)),
         ]
     }
+
+    /// The one pass, wherever it is run.
+    pub(super) fn shading(&self) -> Shade {
+        Shade {
+            uses: uses(),
+            constants: self.constants(),
+            law: self.law,
+            pattern: Some(shader::PATTERN_IGN),
+            ..Shade::new("chss", OWN)
+        }
+    }
 }
 
 impl Technique for Chss {
@@ -68,13 +79,6 @@ impl Technique for Chss {
     }
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
-        let technique = Shade {
-            uses: uses(),
-            constants: self.constants(),
-            law: self.law,
-            pattern: Some(shader::PATTERN_IGN),
-            ..Shade::new("chss", OWN)
-        };
-        shade(recording, inputs, technique);
+        shade(recording, inputs, self.shading());
     }
 }

@@ -60,8 +60,12 @@ pub(crate) enum Searched {
     Halved,
 }
 
+/// The document's blur.
+pub(super) const BLUR: Blur =
+    Blur { weights: GAUSS_7, labels: ["penumbra-mask-rows", "penumbra-mask-blurred"] };
+
 /// Levels that the mask stores: the demo's has 8 bits, light-matched radii keep their floats (0).
-fn levels(calibration: Calibration) -> u32 {
+pub(super) fn levels(calibration: Calibration) -> u32 {
     match calibration {
         Calibration::AsPrinted => 255,
         Calibration::LightMatched => 0,
@@ -109,20 +113,32 @@ impl ChssMask {
             without_blocker: f64::from(u8::from(self.without_blocker == WithoutBlocker::Largest)),
         };
         let mask = penumbra_mask(recording, inputs, (settings, map));
-        let labels = ["penumbra-mask-rows", "penumbra-mask-blurred"];
-        let gauss = Blur { weights: GAUSS_7, labels };
-        let surfaces = |likeness| SurfaceBlur { gauss, step: self.step, likeness };
+        let surfaces = |likeness| SurfaceBlur { gauss: BLUR, step: self.step, likeness };
         match self.smoothing {
             Smoothing::Raw => mask,
-            Smoothing::Gauss => blur(recording, mask, gauss),
+            Smoothing::Gauss => blur(recording, mask, BLUR),
             Smoothing::DepthAware => surface_blur(recording, inputs, (mask, surfaces(Likeness::Depth))),
             Smoothing::DistanceScaled => {
                 surface_blur(recording, inputs, (mask, surfaces(Likeness::Distance)))
             }
             Smoothing::MaxFirst => {
                 let largest = max_filter(recording, mask);
-                blur(recording, largest, gauss)
+                blur(recording, largest, BLUR)
             }
+        }
+    }
+
+    /// The filter, wherever it is run.
+    pub(super) fn shading(&self, mask: TextureId) -> Shade {
+        Shade {
+            uses: vec![shader::FETCH_BILINEAR, shader::FILTER_DISC, shader::KERNEL_VOGEL],
+            constants: vec![
+                ("MASK_STEP", f64::from(self.step)),
+                ("FILTER_TAPS", f64::from(self.filter_taps)),
+            ],
+            reads: vec![Binding::Source(mask)],
+            pattern: Some(shader::PATTERN_IGN),
+            ..Shade::new("chss-mask", OWN)
         }
     }
 }
@@ -173,16 +189,6 @@ impl Technique for ChssMask {
 
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
         let mask = self.mask(recording, inputs);
-        let technique = Shade {
-            uses: vec![shader::FETCH_BILINEAR, shader::FILTER_DISC, shader::KERNEL_VOGEL],
-            constants: vec![
-                ("MASK_STEP", f64::from(self.step)),
-                ("FILTER_TAPS", f64::from(self.filter_taps)),
-            ],
-            reads: vec![Binding::Source(mask)],
-            pattern: Some(shader::PATTERN_IGN),
-            ..Shade::new("chss-mask", OWN)
-        };
-        shade(recording, inputs, technique);
+        shade(recording, inputs, self.shading(mask));
     }
 }

@@ -2,6 +2,7 @@
 //! here. Adding a variant: a line here.
 
 mod backprojection;
+mod checker;
 mod chs;
 mod chss;
 mod chss_early_out;
@@ -13,9 +14,13 @@ mod chss_mips;
 mod esm;
 mod hard;
 mod lerp;
+mod low_res;
 mod pcf_disc;
 mod pcf_grid;
 mod pcss;
+mod screen_blur;
+mod temporal_checker;
+mod temporal_mask;
 mod vsm;
 mod vsm_pcf;
 mod vsm_poisson;
@@ -25,12 +30,14 @@ use crate::calibration::Law;
 use crate::stages::Area;
 use crate::{Projection, Variant};
 use backprojection::{Backprojection, Hidden};
+use checker::{Checker, Depths, Noise, Radius};
 use chss_layers::{ChssLayers, Layers};
 use chss_mask::{ChssMask, Searched, Smoothing, WithoutBlocker};
 use chss_min::{ChssMin, Empty};
 use chss_minmax::{ChssMinmax, Output};
 use esm::Esm;
 use lerp::Base;
+use low_res::{LowRes, Upsample};
 use pcf_disc::{PcfDisc, Points, Rotation, Tap};
 use pcf_grid::PcfGrid;
 use pcss::{Mean, Pcss};
@@ -104,6 +111,17 @@ pub static VARIANTS: &[Variant] = &[
     Variant { name: "chss-layers-4", technique: &ChssLayers { layers: Layers::Four } },
     Variant { name: "backprojection", technique: &Backprojection { hidden: Hidden::Areas } },
     Variant { name: "backprojection-bits", technique: &Backprojection { hidden: Hidden::Bits } },
+    // Fewer pixels.
+    Variant { name: "checker-chss", technique: &checker::LISTED },
+    Variant { name: "checker-chss-plain", technique: &Checker { noise: Noise::Plain, ..checker::LISTED } },
+    Variant { name: "checker-chss-16bit", technique: &Checker { depths: Depths::Bits16, ..checker::LISTED } },
+    Variant { name: "checker-mask", technique: &Checker { radius: Radius::Mask, ..checker::LISTED } },
+    Variant { name: "half-chss", technique: &low_res::HALF },
+    Variant { name: "half-chss-bilateral", technique: &LowRes { upsample: Upsample::Bilateral, ..low_res::HALF } },
+    Variant { name: "three-quarter-chss", technique: &LowRes { numerator: 3, denominator: 4, upsample: Upsample::Bilateral } },
+    Variant { name: "temporal-checker", technique: &temporal_checker::TemporalChecker },
+    Variant { name: "temporal-mask", technique: &temporal_mask::TemporalMask },
+    Variant { name: "screen-blur", technique: &screen_blur::WIDEST_32 },
     // A map in every direction.
     Variant { name: "hard-cube", technique: &hard::Hard { projection: Projection::Cube } },
     Variant { name: "pcf-cube", technique: &PcfDisc { projection: Projection::Cube, ..pcf_disc::POISSON_16 } },
