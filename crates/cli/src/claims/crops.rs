@@ -1,7 +1,7 @@
 //! The picture beside a claim: where A and B differ most.
 
-use super::engine::Measurements;
 use super::judge::{Judged, Shown};
+use super::measurements::Measurements;
 use umbrage_frame::Image;
 use umbrage_report::{Crop, CropPanel};
 

@@ -1,27 +1,25 @@
 //! Measures what claims need: stage by stage (a scene with its map), window by window, variant by
 //! variant, each only in the ways that some claim asks for.
 
+use super::measurements::Measurements;
 use super::needs::{Measure, Needs};
 use super::place::Place;
-use super::store::{Store, Unit};
+use super::store::Store;
 use super::subject::variant_of;
+use super::ways;
 use crate::error::CliError;
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::run::DISAGREEMENT_LIMIT;
-use crate::run::panel::{Draw, Reading, shade_panel};
 use crate::run::unit;
 use crate::run::window::{Readings, Request, Window};
 use crate::suite::Sampling;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use umbrage_frame::Image;
-use umbrage_metrics::{
-    Panel, SumKind, SumTable, against_sums, block_sums, point_maps, width_sums, window_profiles, window_tiles,
-};
 use umbrage_reference::{Cache, Tracer};
 use umbrage_scene::Scene;
-use umbrage_shadows::{Gpu, Renderer, Seeding, VariantId};
+use umbrage_shadows::{Gpu, Renderer, VariantId};
 
 /// How everything is measured.
 pub(crate) struct Settings {
@@ -29,46 +27,6 @@ pub(crate) struct Settings {
     /// Side of the map where a place says nothing else.
     pub(crate) map_texels: u32,
     pub(crate) sampling: Sampling,
-}
-
-/// Everything that was measured.
-#[derive(Default)]
-pub(crate) struct Measurements {
-    pub(crate) places: BTreeMap<Place, PlaceFacts>,
-    tables: BTreeMap<(Place, String, Measure), BTreeMap<SumKind, SumTable>>,
-    masks: BTreeMap<(Place, String), Image<f32>>,
-    /// Why a variant, or every variant of a place (no name), was not measured.
-    refused: BTreeMap<(Place, Option<String>), String>,
-}
-
-/// What is known of a place besides its variants.
-pub(crate) struct PlaceFacts {
-    /// True visibility in the middle frame; NaN where nothing counts.
-    pub(crate) truth: Image<f32>,
-    pub(crate) tiles: u32,
-    pub(crate) frames: u32,
-}
-
-impl Measurements {
-    pub(crate) fn table(
-        &self,
-        place: &Place,
-        variant: &str,
-        (measure, kind): (&Measure, SumKind),
-    ) -> Option<&SumTable> {
-        self.tables.get(&(place.clone(), variant.to_string(), measure.clone()))?.get(&kind)
-    }
-
-    /// The middle frame of a variant.
-    pub(crate) fn mask(&self, place: &Place, variant: &str) -> Option<&Image<f32>> {
-        self.masks.get(&(place.clone(), variant.to_string()))
-    }
-
-    /// Why there is nothing of a variant in a place.
-    pub(crate) fn reason(&self, place: &Place, variant: &str) -> String {
-        let of = |name: Option<String>| self.refused.get(&(place.clone(), name)).cloned();
-        of(Some(variant.to_string())).or(of(None)).unwrap_or_else(|| "it was not measured".into())
-    }
 }
 
 /// The work in progress.
@@ -158,7 +116,7 @@ impl Run<'_> {
         }
         self.progress.advance(1);
         renderer.set_anchors(&window.anchors)?;
-        self.done.places.insert(place.clone(), facts(&window));
+        self.done.places.insert(place.clone(), ways::facts(&window));
         for (name, measures) in variants {
             let Some(variant) = variant_of(name) else {
                 let reason = format!("this build has no variant {name}");
@@ -205,10 +163,10 @@ impl Run<'_> {
             Some(stored) => stored,
             None => {
                 let fresh = match (measure, companion) {
-                    (Measure::Scores, _) => scores(window, (variant, renderer), sampling)?,
-                    (Measure::Frozen, _) => frozen(window, (variant, renderer))?,
+                    (Measure::Scores, _) => ways::scores(window, (variant, renderer), sampling)?,
+                    (Measure::Frozen, _) => ways::frozen(window, (variant, renderer))?,
                     (Measure::Against(_), other) => {
-                        against(window, (variant, other.unwrap_or(variant)), (renderer, sampling))?
+                        ways::against(window, (variant, other.unwrap_or(variant)), (renderer, sampling))?
                     }
                 };
                 self.store.write(&key, &fresh);
@@ -223,66 +181,4 @@ impl Run<'_> {
         self.done.tables.insert((place.clone(), name, measure.clone()), unit.tables);
         Ok(())
     }
-}
-
-fn facts(window: &Window) -> PlaceFacts {
-    let truth = |point: usize| match window.is_counted(point) {
-        true => window.truth.mean(point) as f32,
-        false => f32::NAN,
-    };
-    PlaceFacts {
-        truth: window.spread(truth, f32::NAN),
-        tiles: window.tiling.tiles.iter().filter(|t| !t.penumbra.is_empty()).count() as u32,
-        frames: window.frames.len() as u32,
-    }
-}
-
-/// Patterns drawn afresh.
-fn fresh(
-    window: &Window,
-    (variant, renderer): (VariantId, &mut Renderer<'_>),
-    sampling: &Sampling,
-) -> Result<Panel, CliError> {
-    let seeds = if variant.info().stochastic { sampling.seeds } else { 1 };
-    let draw = Draw { seeding: Seeding::Fresh, seeds, frames: window.frames.len() };
-    shade_panel(window, (variant, renderer), Reading::Anchored, draw)
-}
-
-fn scores(
-    window: &Window,
-    (variant, renderer): (VariantId, &mut Renderer<'_>),
-    sampling: &Sampling,
-) -> Result<Unit, CliError> {
-    let panel = fresh(window, (variant, renderer), sampling)?;
-    let (truth, tiling, anchors) = (&window.truth, &window.tiling, &window.anchors);
-    let maps = point_maps(&panel, truth, tiling)?;
-    let tables = BTreeMap::from([
-        (SumKind::Cells, window_tiles(&panel, truth, tiling)?.sum_table()),
-        (SumKind::Profile, window_profiles(&panel, truth, anchors, tiling)?.sum_table()),
-        (SumKind::Blocks, block_sums(&panel, truth, tiling)?),
-        (SumKind::Widths, width_sums((&panel, &maps), truth, anchors, tiling)?),
-    ]);
-    let shipped = (Seeding::Frozen, [window.first + window.middle() as u32, 0]);
-    let values = renderer.shade_frame(variant, window.middle_frame(), shipped)?.values;
-    let mask = values.iter().map(|v| (255.0 * v.clamp(0.0, 1.0)).round() as u8).collect();
-    Ok(Unit { tables, mask })
-}
-
-/// What an eye follows: one pattern, frame after frame.
-fn frozen(window: &Window, (variant, renderer): (VariantId, &mut Renderer<'_>)) -> Result<Unit, CliError> {
-    let draw = Draw { seeding: Seeding::Frozen, seeds: 1, frames: window.frames.len() };
-    let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
-    let table = window_tiles(&panel, &window.truth, &window.tiling)?.sum_table();
-    Ok(Unit { tables: BTreeMap::from([(SumKind::Frozen, table)]), mask: vec![] })
-}
-
-fn against(
-    window: &Window,
-    (variant, other): (VariantId, VariantId),
-    (renderer, sampling): (&mut Renderer<'_>, &Sampling),
-) -> Result<Unit, CliError> {
-    let panel = fresh(window, (variant, renderer), sampling)?;
-    let other = fresh(window, (other, renderer), sampling)?;
-    let table = against_sums(&panel, &other, &window.tiling)?;
-    Ok(Unit { tables: BTreeMap::from([(SumKind::Against, table)]), mask: vec![] })
 }

@@ -7,12 +7,15 @@ mod crops;
 mod engine;
 mod exact;
 mod judge;
+mod measurements;
 mod needs;
+mod numbers;
 mod place;
 mod registry;
 mod rule;
 mod store;
 mod subject;
+mod ways;
 
 pub(crate) use assemble::assemble;
 pub(crate) use costs::{CostBook, measure_costs};

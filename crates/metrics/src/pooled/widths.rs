@@ -26,6 +26,8 @@ const CHANGE_SIDE: u32 = 8;
 const WIDTH_SIDE: u32 = 16;
 /// Fewest points with a radius in a block: a quarter of it.
 const FEWEST: usize = 16;
+/// Least mean variance of a single tap in a block: it is nearly all lit or dark otherwise.
+const LEAST_TAP: f64 = 0.01;
 /// Where the profile is steep enough to tell a radius.
 const STEEP: std::ops::Range<f64> = 0.05..0.95;
 /// The 10-90 % width.
@@ -96,7 +98,11 @@ impl View<'_> {
         let mean = inside.iter().map(|(_, r)| r).sum::<f64>() / count;
         let variance = inside.iter().map(|(_, r)| (r - mean).powi(2)).sum::<f64>() / count;
         let sum = |of: &dyn Fn(usize) -> f64| inside.iter().map(|&(p, _)| of(p as usize)).sum::<f64>();
-        let tap = sum(&|p| f64::from(self.truth.basis[p]) * (1.0 - f64::from(self.truth.basis[p])));
+        // Of the variant's own mean: a kernel of the wrong width must not look noisy for it.
+        let tap = sum(&|p| f64::from(self.maps.mean[p]) * (1.0 - f64::from(self.maps.mean[p])));
+        if tap <= LEAST_TAP * count {
+            return None;
+        }
         let noise = sum(&|p| f64::from(self.maps.noise[p])) / tap;
         let moving =
             sum(&|p| f64::from(self.maps.smooth_moving[p]) + f64::from(self.maps.structured_moving[p]));

@@ -1,21 +1,20 @@
 //! `claims.md`: the table for the repository.
 
 use super::card::{ClaimCard, ClaimPart, ClaimsCard, DocumentTime};
-use super::words::{counts, effect, expectation, extent, facts, value};
+use super::words::{counts, effect, expectation, extent, facts, unmeasured, value};
 use crate::numbers::number;
 use crate::tables::markdown;
 
 pub(super) fn markdown_of(card: &ClaimsCard) -> String {
     let mut text = String::from("# Claims of the seed documents, measured\n\n");
-    let counted: Vec<String> =
-        counts(card).iter().map(|(v, n)| format!("**{n}** {}", v.label().to_lowercase())).collect();
+    let counted: Vec<String> = counts(card).iter().map(|(v, n)| format!("{} **{n}**", v.label())).collect();
     text += &counted.join(", ");
     text += ".\n\nThe rule and the margins: docs/claims.md, written before the results. Effects are A / B − 1 in percent, or \
              A − B where no unit is given, with 95 % intervals paired over tiles.\n\n";
     text += "| claim | says | verdict |\n|---|---|---|\n";
     for claim in &card.claims {
         let (id, says) = (markdown(&claim.id), markdown(&claim.statement));
-        text += &format!("| [{id}](#{}) | {says} | {} |\n", claim.id.to_lowercase(), claim.verdict.label());
+        text += &format!("| [{id}](#{}) | {says} | {} |\n", claim.id.to_lowercase(), verdict(claim));
     }
     card.claims.iter().for_each(|claim| text += &section(claim));
     text += &times(&card.times);
@@ -31,7 +30,7 @@ fn section(claim: &ClaimCard) -> String {
     let mut text = format!(
         "\n## {}\n\n**{}** ({}): {}\n",
         markdown(&claim.id),
-        claim.verdict.label(),
+        verdict(claim),
         markdown(&claim.document),
         markdown(&claim.statement)
     );
@@ -44,6 +43,12 @@ fn section(claim: &ClaimCard) -> String {
         text += &format!("\n![{}]({file})\n\n{}\n", markdown(&claim.id), markdown(caption));
     }
     text
+}
+
+/// With how much of it was not measured.
+fn verdict(claim: &ClaimCard) -> String {
+    let open = unmeasured(claim).map(|open| format!(" ({open})")).unwrap_or_default();
+    format!("{}{open}", claim.verdict.label())
 }
 
 fn row(part: &ClaimPart) -> String {
@@ -66,7 +71,9 @@ fn row(part: &ClaimPart) -> String {
         part.effect.map_or_else(|| "–".into(), |e| markdown(&effect(part.effect_kind, e))),
         markdown(&expectation(part)),
         format!("{}{reason}", part.outcome.label()),
-        markdown(&[extent(part), places].join("; ")),
+        markdown(
+            &[extent(part), places].into_iter().filter(|t| !t.is_empty()).collect::<Vec<_>>().join("; "),
+        ),
     ];
     format!("| {} |\n", cells.join(" | "))
 }

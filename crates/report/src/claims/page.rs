@@ -1,7 +1,7 @@
 //! The claims page: one file, no network, no script.
 
 use super::card::{ClaimCard, ClaimPart, ClaimsCard, DocumentTime, Verdict};
-use super::words::{counts, effect, expectation, extent, facts, value};
+use super::words::{counts, effect, expectation, extent, facts, unmeasured, value};
 use crate::numbers::number;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::collections::BTreeMap;
@@ -85,7 +85,8 @@ fn overview(card: &ClaimsCard) -> Markup {
                         @for claim in &card.claims {
                             tr {
                                 th scope="row" { a href={ "#" (anchor(claim)) } { (claim.id) } }
-                                td { (claim.statement) } td { (claim.document) } td { (chip(claim.verdict)) }
+                                td { (claim.statement) } td { (claim.document) }
+                                td { (chip(claim.verdict)) @if let Some(open) = unmeasured(claim) { small { (open) } } }
                             }
                         }
                     }

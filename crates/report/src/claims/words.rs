@@ -1,21 +1,31 @@
 //! Effects, places and counts as both pages say them.
 
-use super::card::{ClaimPart, ClaimsCard, EffectKind, Verdict};
-use crate::numbers::{free_number, free_score, number};
+use super::card::{ClaimCard, ClaimPart, ClaimsCard, EffectKind, Outcome, Verdict};
+use crate::numbers::{Power, free_number, free_score, number};
 use umbrage_metrics::Score;
 
 /// "−23.1 % [−25.0 to −21.2]", or the difference in the number's own unit.
 pub(super) fn effect(kind: EffectKind, score: Score) -> String {
-    let shown: fn(f64) -> String = match kind {
-        EffectKind::Ratio => |v| number(100.0 * v),
-        EffectKind::Difference => free_number,
+    let ends = [score.value, score.low, score.high];
+    let (power, unit) = match kind {
+        EffectKind::Ratio => (Power::ONE, "\u{a0}%".to_string()),
+        EffectKind::Difference => {
+            let power = Power::of(ends.into_iter());
+            let label = power.label();
+            (power, if label.is_empty() { label } else { format!("×{label}") })
+        }
     };
-    let unit = if kind == EffectKind::Ratio { "\u{a0}%" } else { "" };
-    let sign = |v: f64| if v > 0.0 { format!("+{}", shown(v)) } else { shown(v) };
+    let times = if kind == EffectKind::Ratio { 100.0 } else { 1.0 };
+    let [value, low, high] = ends.map(|v| signed(power.scaled(times * v)));
     if score.low == score.high {
-        return format!("{}{unit}", sign(score.value));
+        format!("{value}{unit}")
+    } else {
+        format!("{value}{unit} [{low} to {high}]")
     }
-    format!("{}{unit} [{} to {}]", sign(score.value), sign(score.low), sign(score.high))
+}
+
+fn signed(value: f64) -> String {
+    if value > 0.0 { format!("+{}", number(value)) } else { number(value) }
 }
 
 /// "below −5 %".
@@ -40,13 +50,22 @@ pub(super) fn value(score: Option<Score>) -> String {
     score.map_or_else(String::new, free_score)
 }
 
-/// "4 seeds, 16 frames, 212 tiles".
+/// "4 seeds, 16 frames, 212 tiles"; nothing for a time that was not taken.
 pub(super) fn extent(part: &ClaimPart) -> String {
-    match (part.seeds, part.frames) {
-        (0, 0) => "exact".into(),
-        (0, repeats) => format!("{repeats} repeats"),
-        (seeds, frames) => format!("{seeds} seeds, {frames} frames, {} tiles", part.tiles),
+    let seeds = if part.seeds == 1 { "1 seed".into() } else { format!("{} seeds", part.seeds) };
+    match (part.seeds, part.frames, part.places.is_empty()) {
+        (0, 0, true) => "exact".into(),
+        (0, 0, false) => String::new(),
+        (0, repeats, _) => format!("{repeats} repeats"),
+        (_, frames, _) => format!("{seeds}, {frames} frames, {} tiles", part.tiles),
     }
+}
+
+/// "2 of 5 parts not measured", or nothing.
+pub(super) fn unmeasured(claim: &ClaimCard) -> Option<String> {
+    let open = claim.parts.iter().filter(|p| matches!(p.outcome, Outcome::NeedsGpu | Outcome::NotMeasured));
+    let open = open.count();
+    (open > 0).then(|| format!("{open} of {} parts not measured", claim.parts.len()))
 }
 
 /// How often each verdict was given, those that were not given left out.
