@@ -19,6 +19,8 @@ const EXIT_CODES: &str = "Exit codes: 0 pass (warnings allowed), 1 regression or
 pub(crate) enum Command {
     /// Render truth and variants, score them, write the report: the main job.
     Evaluate(EvaluateArgs),
+    /// What the seed documents say, measured: a verdict on every claim.
+    Claims(ClaimsArgs),
     /// Ground truth of one frame to EXR.
     Reference(ReferenceArgs),
     /// One variant to EXR.
@@ -41,6 +43,13 @@ pub(crate) struct ViewArgs {
     /// Side of the shadow map in texels.
     #[arg(long, value_name = "TEXELS", default_value_t = 2048)]
     pub(crate) map: u32,
+    #[command(flatten)]
+    pub(crate) gpu: GpuArgs,
+}
+
+/// Which adapter renders.
+#[derive(Args, Debug, Clone)]
+pub(crate) struct GpuArgs {
     /// Adapter by (part of) its name; `umbrage list adapters` shows them.
     #[arg(long, value_name = "NAME", env = "WGPU_ADAPTER_NAME")]
     pub(crate) adapter: Option<String>,
@@ -101,6 +110,50 @@ pub(crate) enum ReportKind {
     File,
     /// A page with its pictures beside it.
     Dir,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ClaimsArgs {
+    /// Claims by id (`C7`); all otherwise.
+    pub(crate) claims: Vec<String>,
+    /// Picture size of scores.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(crate) size: Option<(u32, u32)>,
+    /// Picture size of costs.
+    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1920x1080")]
+    pub(crate) cost_size: (u32, u32),
+    /// Pattern seeds per frame.
+    #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(2..=64))]
+    pub(crate) seeds: Option<u32>,
+    /// Light samples of truth in each of its two halves.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65536))]
+    pub(crate) samples: Option<u32>,
+    /// Side of the shadow map in texels, where a claim says nothing else.
+    #[arg(long, value_name = "TEXELS", default_value_t = 2048)]
+    pub(crate) map: u32,
+    /// Small and coarse: an answer in minutes.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Costs measured before; otherwise this GPU's, or on a software adapter reports/gpu/claims-cost.json.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) costs: Option<PathBuf>,
+    /// A file of claims, in place of those that are built in.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) registry: Option<PathBuf>,
+    /// Folder of the pages.
+    #[arg(long, value_name = "DIR", default_value = "reports/out/claims")]
+    pub(crate) out: PathBuf,
+    /// Folder of cached truth and results.
+    #[arg(long, value_name = "DIR", default_value = "reports/out/cache")]
+    pub(crate) cache: PathBuf,
+    /// Also put the table, the crops and new costs into this folder, to be committed.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) publish: Option<PathBuf>,
+    /// Print claims.json to standard output, and nothing else there.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) gpu: GpuArgs,
 }
 
 #[derive(Args, Debug)]

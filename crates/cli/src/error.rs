@@ -29,6 +29,8 @@ pub(crate) enum CliError {
     Suite { path: PathBuf, message: String },
     #[error("nothing could be scored: {0}")]
     NothingScored(String),
+    #[error("not a finite number: {0}")]
+    NotFinite(String),
     #[error("interrupted")]
     Interrupted { cache: PathBuf },
 }

@@ -5,6 +5,7 @@
 #![expect(clippy::print_stderr, reason = "this is the program that talks to people")]
 
 mod args;
+mod claims;
 mod clock;
 mod commands;
 mod error;

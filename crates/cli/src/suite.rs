@@ -47,9 +47,15 @@ pub(crate) struct Plan {
     pub(crate) name: String,
     pub(crate) jobs: Vec<Job>,
     pub(crate) variants: Vec<VariantId>,
-    pub(crate) size: (u32, u32),
     /// Frames of each path.
     pub(crate) frames: u32,
+    pub(crate) sampling: Sampling,
+}
+
+/// How large and how often: part of every score.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sampling {
+    pub(crate) size: (u32, u32),
     /// Frames of a window.
     pub(crate) window: u32,
     pub(crate) seeds: u32,
@@ -59,7 +65,10 @@ pub(crate) struct Plan {
 }
 
 /// Frames of a window, unless the path is shorter (METRICS: T is part of the score).
-const WINDOW: u32 = 16;
+pub(crate) const WINDOW: u32 = 16;
+
+/// Truth samples of the third estimate: what regions and the projection can tell apart.
+pub(crate) const BASIS_SAMPLES: u32 = 1024;
 
 impl Plan {
     /// Resolves the arguments.
@@ -79,12 +88,14 @@ impl Plan {
             name: if quick { format!("{}-quick", file.name) } else { file.name },
             jobs,
             variants,
-            size: size.unwrap_or(if quick { (192, 108) } else { (320, 180) }),
             frames,
-            window: frames.min(WINDOW),
-            seeds: args.seeds.unwrap_or(4),
-            samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
-            basis_samples: 1024,
+            sampling: Sampling {
+                size: size.unwrap_or(if quick { (192, 108) } else { (320, 180) }),
+                window: frames.min(WINDOW),
+                seeds: args.seeds.unwrap_or(4),
+                samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
+                basis_samples: BASIS_SAMPLES,
+            },
         })
     }
 }

@@ -29,7 +29,7 @@ type Tensor = [f64; 3];
 
 impl EdgeClasses {
     pub(crate) fn new(anchors: &Anchors, g: &[f32], tiling: &Tiling) -> Self {
-        let point_at = points_by_pixel(anchors);
+        let slopes = Slopes::new(anchors, g, tiling);
         let columns = tiling.size[0].div_ceil(tiling.tile_px) as usize;
         let rows = tiling.size[1].div_ceil(tiling.tile_px) as usize;
         let mut tensors = vec![[0.0; 3]; columns * rows];
@@ -37,8 +37,8 @@ impl EdgeClasses {
         for tile in &tiling.tiles {
             let index = tile.row as usize * columns + tile.column as usize;
             penumbra[index] = !tile.penumbra.is_empty();
-            for gradient in tile.penumbra.iter().filter_map(|&p| gradient(anchors, g, tiling, &point_at, p)) {
-                add(&mut tensors[index], gradient);
+            for slope in tile.penumbra.iter().filter_map(|&p| slopes.at(p)) {
+                add(&mut tensors[index], slope.gradient);
             }
         }
         let around = |tile: &crate::Tile| {
@@ -66,33 +66,59 @@ fn points_by_pixel(anchors: &Anchors) -> Vec<Option<u32>> {
     point_at
 }
 
-/// Gradient of g at a point, per metre along two axes of its surface, from the neighbours to the
-/// right and below.
-fn gradient(
-    anchors: &Anchors,
-    g: &[f32],
-    tiling: &Tiling,
-    point_at: &[Option<u32>],
-    point: u32,
-) -> Option<[f64; 2]> {
-    let [x, y] = tiling.place(point);
-    let [width, height] = tiling.size;
-    let at = |x: u32, y: u32| (x < width && y < height).then(|| point_at[(y * width + x) as usize]).flatten();
-    let p = point as usize;
-    let axes = tangents(anchors.normal[p]);
-    let step = |neighbour: u32| -> Option<([f64; 2], f64)> {
-        let n = neighbour as usize;
-        let same =
-            tiling.regions[n] != Region::LeftOut && anchors.normal[n].dot(anchors.normal[p]) > SAME_PLANE;
-        let way = anchors.position[n] - anchors.position[p];
-        same.then(|| (axes.map(|axis| f64::from(axis.dot(way))), f64::from(g[n]) - f64::from(g[p])))
-    };
-    let (a, rise_a) = step(at(x + 1, y)?)?;
-    let (b, rise_b) = step(at(x, y + 1)?)?;
-    let determinant = a[0] * b[1] - a[1] * b[0];
-    let gradient =
-        [(rise_a * b[1] - rise_b * a[1]) / determinant, (rise_b * a[0] - rise_a * b[0]) / determinant];
-    gradient.iter().all(|g| g.is_finite()).then_some(gradient)
+/// How the true visibility rises at a point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slope {
+    /// Per metre, along two axes of the surface.
+    pub(crate) gradient: [f64; 2],
+    /// Its length, per metre.
+    pub(crate) steepness: f64,
+    /// The pixel's area on the surface, square metres.
+    pub(crate) footprint: f64,
+}
+
+/// Slopes from the neighbours to the right and below.
+pub(crate) struct Slopes<'a> {
+    anchors: &'a Anchors,
+    g: &'a [f32],
+    tiling: &'a Tiling,
+    point_at: Vec<Option<u32>>,
+}
+
+impl<'a> Slopes<'a> {
+    pub(crate) fn new(anchors: &'a Anchors, g: &'a [f32], tiling: &'a Tiling) -> Self {
+        Self { anchors, g, tiling, point_at: points_by_pixel(anchors) }
+    }
+
+    /// None beside another surface, or one that does not count.
+    pub(crate) fn at(&self, point: u32) -> Option<Slope> {
+        let [x, y] = self.tiling.place(point);
+        let axes = tangents(self.anchors.normal[point as usize]);
+        let (a, rise_a) = self.step(point, [x + 1, y], axes)?;
+        let (b, rise_b) = self.step(point, [x, y + 1], axes)?;
+        let determinant = a[0] * b[1] - a[1] * b[0];
+        let gradient =
+            [(rise_a * b[1] - rise_b * a[1]) / determinant, (rise_b * a[0] - rise_a * b[0]) / determinant];
+        let steepness = gradient[0].hypot(gradient[1]);
+        gradient.iter().all(|g| g.is_finite()).then_some(Slope {
+            gradient,
+            steepness,
+            footprint: determinant.abs(),
+        })
+    }
+
+    /// The way to a neighbour along the axes, and the rise.
+    fn step(&self, point: u32, [x, y]: [u32; 2], axes: [Vec3; 2]) -> Option<([f64; 2], f64)> {
+        let [width, height] = self.tiling.size;
+        let n =
+            (x < width && y < height).then(|| self.point_at[(y * width + x) as usize]).flatten()? as usize;
+        let p = point as usize;
+        let same = self.tiling.regions[n] != Region::LeftOut
+            && self.anchors.normal[n].dot(self.anchors.normal[p]) > SAME_PLANE;
+        let way = self.anchors.position[n] - self.anchors.position[p];
+        let rise = f64::from(self.g[n]) - f64::from(self.g[p]);
+        same.then(|| (axes.map(|axis| f64::from(axis.dot(way))), rise))
+    }
 }
 
 /// Two axes of the plane with this normal.

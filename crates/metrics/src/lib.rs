@@ -15,8 +15,10 @@ mod grain;
 mod groups;
 mod interval;
 mod maps;
+mod medians;
 mod paired;
 mod panel;
+mod pooled;
 mod profile;
 mod projection;
 mod quantity;
@@ -40,8 +42,12 @@ pub use flip::{PictureScore, Viewing, flip};
 pub use grain::{Grain, GrainTable, grain, window_grain};
 pub use groups::{Comparisons, compare_all, group_letters};
 pub use maps::{PointMaps, point_maps};
+pub use medians::compare_medians;
 pub use paired::{edge_crawl, paired};
 pub use panel::{Panel, PanelTruth};
+pub use pooled::{
+    Member, PooledNumber, SumKind, SumTable, against_sums, block_sums, compare_jointly, width_sums,
+};
 pub use profile::{ProfileTable, Profiles, profiles, window_profiles};
 pub use projection::Projection;
 pub use quantity::Quantity;

@@ -26,11 +26,20 @@ const AREA: usize = 1;
 const TRUE_CLASS: usize = 2;
 const CLASS: usize = TRUE_CLASS + CLASSES;
 const STAIR: usize = CLASS + CLASSES;
+/// The sums of which a cluster must have one to say anything.
+pub(crate) const PROFILE_SUMS: [usize; 3] = [TRUE_AREA, AREA, STAIR];
 
 /// Sums per tile from which [`profiles`] are made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProfileTable {
     rows: Vec<(u32, u32, Vec<f64>)>,
+}
+
+impl ProfileTable {
+    /// Column, row and sums of each tile.
+    pub(crate) fn rows(&self) -> &[(u32, u32, Vec<f64>)] {
+        &self.rows
+    }
 }
 
 /// What the penumbra of a variant looks like, over all windows.
@@ -89,8 +98,8 @@ pub fn profiles(tables: &[&ProfileTable], bootstrap: &Bootstrap) -> Profiles {
             Stratum::new(STAIR + STAIRS, near.cloned(), bootstrap.cluster_tiles)
         })
         .collect();
-    let seen = seen_classes(tables);
-    let estimates = bootstrap.estimate(&strata, |windows| values(windows, &seen).to_vec());
+    let seen = seen_classes(tables.iter().flat_map(|t| &t.rows));
+    let estimates = bootstrap.estimate(&strata, |windows| profile_values(windows, &seen).to_vec());
     let measured = |index: usize, missing: Missing| {
         let score: Option<Score> = estimates.get(index).map(|e| e.score).filter(|s| s.value.is_finite());
         score.map_or(Measurement::NotMeasured(missing), Measurement::Measured)
@@ -105,14 +114,14 @@ pub fn profiles(tables: &[&ProfileTable], bootstrap: &Bootstrap) -> Profiles {
 }
 
 /// Classes of edge direction with enough area to give a ratio.
-fn seen_classes(tables: &[&ProfileTable]) -> Vec<usize> {
-    let sum = |slot: usize| tables.iter().flat_map(|t| &t.rows).map(|(.., s)| s[slot]).sum::<f64>();
+pub(crate) fn seen_classes<'a>(rows: impl Iterator<Item = &'a (u32, u32, Vec<f64>)> + Clone) -> Vec<usize> {
+    let sum = |slot: usize| rows.clone().map(|(.., s)| s[slot]).sum::<f64>();
     let total: f64 = (0..CLASSES).map(|class| sum(TRUE_CLASS + class)).sum();
     (0..CLASSES).filter(|class| total > 0.0 && sum(TRUE_CLASS + class) >= CLASS_SHARE * total).collect()
 }
 
-/// Ratios of sums over all windows; NaN where there is nothing to divide by.
-fn values(windows: &[Vec<f64>], seen: &[usize]) -> [f64; 5] {
+/// Ratios of sums over all windows, in the order of [`Profiles`]; NaN where there is nothing to divide by.
+pub(crate) fn profile_values(windows: &[Vec<f64>], seen: &[usize]) -> [f64; 5] {
     let sum = |slot: usize| windows.iter().map(|w| w[slot]).sum::<f64>();
     let ratios = seen.iter().map(|class| sum(CLASS + class) / sum(TRUE_CLASS + class));
     let (low, high) = ratios.fold((f64::MAX, f64::MIN), |(low, high), r| (low.min(r), high.max(r)));

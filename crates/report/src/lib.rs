@@ -7,6 +7,7 @@
 
 mod book;
 mod card;
+mod claims;
 mod error;
 mod numbers;
 mod page;
@@ -21,6 +22,10 @@ pub use card::{
     AdapterCard, Calibration, Cost, Direction, Measured, MetricCard, OverallCard, PairedCard, PassCost,
     Provenance, ResultCard, SCHEMA_VERSION, SceneCard, Scorecard, SettingsCard, TruthCard, VariantCard,
     WindowCard, scorecard_schema,
+};
+pub use claims::{
+    ClaimCard, ClaimPart, ClaimsCard, ClaimsProvenance, CostOrigin, Crop, CropPanel, DocumentTime,
+    EffectKind, Outcome, PlaceEffect, Verdict, publish_claims, write_claims,
 };
 pub use error::ReportError;
 pub use store::{RunWriter, VariantPictures, WindowPictures};

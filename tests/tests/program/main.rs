@@ -3,6 +3,7 @@
 mod bad_files;
 mod bad_places;
 mod bad_scenes;
+mod claims;
 mod commands;
 mod dump;
 mod models;

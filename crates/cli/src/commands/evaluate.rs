@@ -14,7 +14,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     let plan = Plan::new(args)?;
     let now = clock::now();
     let out = args.out.clone().unwrap_or_else(|| run_folder(&plan.name, &now.folder));
-    let mut gpu = open_gpu(&args.view)?;
+    let mut gpu = open_gpu(&args.view.gpu)?;
     eprintln!("adapter: {} ({})", gpu.description().name, gpu.description().device_type);
     let settings = Settings {
         cache: args.cache.clone(),
@@ -66,7 +66,7 @@ fn run_folder(name: &str, date: &str) -> PathBuf {
 }
 
 /// The command to copy: the program's own name, not where it lies on this machine.
-fn command_line() -> String {
+pub(super) fn command_line() -> String {
     let quoted = |argument: String| {
         let plain = argument.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=+,:".contains(c));
         if plain && !argument.is_empty() {

@@ -1,12 +1,13 @@
 //! One file a command.
 
+mod claims;
 mod evaluate;
 mod list;
 mod reference;
 mod render;
 mod report;
 
-use crate::args::{Arguments, Command, ViewArgs};
+use crate::args::{Arguments, Command, GpuArgs};
 use crate::error::CliError;
 use std::process::ExitCode;
 use umbrage_shadows::{AdapterChoice, Gpu};
@@ -15,6 +16,7 @@ use umbrage_shadows::{AdapterChoice, Gpu};
 pub(crate) fn dispatch(arguments: &Arguments) -> Result<ExitCode, CliError> {
     match &arguments.command {
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Claims(args) => claims::run(args),
         Command::Reference(args) => reference::run(args),
         Command::Render(args) => render::run(args),
         Command::Report(args) => report::run(args),
@@ -24,7 +26,7 @@ pub(crate) fn dispatch(arguments: &Arguments) -> Result<ExitCode, CliError> {
 }
 
 /// The adapter that the flags (or wgpu's own variables) name.
-fn open_gpu(view: &ViewArgs) -> Result<Gpu, CliError> {
-    let choice = AdapterChoice { name: view.adapter.clone(), backend: view.backend.clone() };
+fn open_gpu(wanted: &GpuArgs) -> Result<Gpu, CliError> {
+    let choice = AdapterChoice { name: wanted.adapter.clone(), backend: wanted.backend.clone() };
     Ok(Gpu::new(&choice)?)
 }

@@ -15,7 +15,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let variants = variants_of(&args.variants)?;
     let path = path_of(&scene, &args.view.paths)?;
     let size = args.view.size.unwrap_or((1280, 720));
-    let mut gpu = open_gpu(&args.view)?;
+    let mut gpu = open_gpu(&args.view.gpu)?;
     let mut renderer = Renderer::new(&mut gpu, &scene, args.view.map)?;
     std::fs::create_dir_all(&args.out).map_err(CliError::file(&args.out))?;
     for number in args.frame..args.frame.saturating_add(args.frames) {

@@ -1,20 +1,21 @@
 //! What a variant costs on a real adapter: timestamp queries round each pass.
 
-use super::window::Window;
 use crate::error::CliError;
-use crate::suite::Plan;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
+use umbrage_frame::View;
 use umbrage_report::{Cost, PassCost};
+use umbrage_scene::AreaLight;
 use umbrage_shadows::{Renderer, Seeding, Timing, VariantId};
 
 /// Times of one variant in one window.
 pub(crate) struct CostOf {
     pub(crate) variant: String,
     /// Milliseconds of each repeated frame, in the order of `passes`.
-    frames: Vec<Vec<f64>>,
-    passes: Vec<&'static str>,
-    kept_ms: f64,
+    pub(crate) frames: Vec<Vec<f64>>,
+    pub(crate) passes: Vec<&'static str>,
+    /// Passes whose results are kept over frames, each timed once.
+    pub(crate) kept: Vec<(&'static str, f64)>,
 }
 
 const WARM_UP: usize = 10;
@@ -33,30 +34,28 @@ fn is_ours(timing: &Timing) -> bool {
     timing.label != NOT_OURS && !timing.earlier
 }
 
-/// Times every variant on the middle frame. Passes whose results are kept are timed when they run
+/// Times every variant on one frame, whose past the renderer has been told. Passes whose results are kept are timed when they run
 /// for the first time in a scene.
-pub(super) fn measure_cost(
+pub(crate) fn measure_cost(
     renderer: &mut Renderer<'_>,
-    window: &Window,
-    plan: &Plan,
+    (view, light): (&View, &AreaLight),
+    variants: &[VariantId],
 ) -> Result<Vec<CostOf>, CliError> {
-    let (view, light) = &window.frames[window.middle()];
-    renderer.set_past(window.past(window.middle()));
     let pattern = (Seeding::Frozen, [0, 0]);
     let started = Instant::now();
     while started.elapsed() < WAKE_UP {
-        for &variant in &plan.variants {
+        for &variant in variants {
             renderer.time_frame(variant, (view, light), pattern)?;
         }
     }
     let mut costs = Vec::new();
-    for &variant in &plan.variants {
+    for &variant in variants {
         renderer.forget();
-        let mut cost = CostOf { variant: variant.name(), frames: vec![], passes: vec![], kept_ms: 0.0 };
+        let mut cost = CostOf { variant: variant.name(), frames: vec![], passes: vec![], kept: vec![] };
         for repeat in 0..WARM_UP + REPEATS {
             let timings = renderer.time_frame(variant, (view, light), pattern)?;
             let (kept, ours): (Vec<_>, Vec<_>) = timings.iter().filter(|t| is_ours(t)).partition(|t| t.kept);
-            cost.kept_ms += kept.iter().map(|t| t.ms).sum::<f64>();
+            cost.kept.extend(kept.iter().map(|t| (t.label, t.ms)));
             if repeat >= WARM_UP && !ours.is_empty() {
                 cost.passes = ours.iter().map(|t| t.label).collect();
                 cost.frames.push(ours.iter().map(|t| t.ms).collect());
@@ -78,7 +77,7 @@ pub(super) fn pooled(costs: &[CostOf], variant: VariantId, adapter: &str) -> Opt
         by_pass.entry(pass).or_default().push(ms);
     }
     let passes = first.passes.iter().zip(by_pass.into_values());
-    let kept: Vec<f64> = ours.iter().map(|c| c.kept_ms).collect();
+    let kept: Vec<f64> = ours.iter().map(|c| c.kept.iter().map(|(_, ms)| ms).sum()).collect();
     Some(Cost {
         adapter: adapter.to_string(),
         frame_ms_median: quantile(totals.clone(), 0.5),
@@ -90,7 +89,7 @@ pub(super) fn pooled(costs: &[CostOf], variant: VariantId, adapter: &str) -> Opt
     })
 }
 
-fn quantile(mut values: Vec<f64>, fraction: f64) -> f64 {
+pub(crate) fn quantile(mut values: Vec<f64>, fraction: f64) -> f64 {
     values.sort_by(f64::total_cmp);
     values[((values.len() - 1) as f64 * fraction).round() as usize]
 }

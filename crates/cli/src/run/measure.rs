@@ -5,7 +5,7 @@ use super::panel::{Draw, Reading, shade_panel};
 use super::pictures;
 use super::window::Window;
 use crate::error::CliError;
-use crate::suite::Plan;
+use crate::suite::Sampling;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use umbrage_frame::Image;
@@ -46,9 +46,9 @@ pub(super) fn measure(
     window: &Window,
     variant: VariantId,
     renderer: &mut Renderer<'_>,
-    plan: &Plan,
+    sampling: &Sampling,
 ) -> Result<Measured, CliError> {
-    let seeds = if variant.info().stochastic { plan.seeds } else { 1 };
+    let seeds = if variant.info().stochastic { sampling.seeds } else { 1 };
     let draw = Draw { seeding: Seeding::Fresh, seeds, frames: window.frames.len() };
     let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
     let anchored = window_tiles(&panel, &window.truth, &window.tiling)?;

@@ -1,14 +1,14 @@
 //! The main job: window by window, variant by variant, from truth to a stored run.
 
-mod cost;
+pub(crate) mod cost;
 mod extras;
 mod measure;
-mod panel;
+pub(crate) mod panel;
 mod pictures;
-mod provenance;
+pub(crate) mod provenance;
 mod scorecard;
-mod unit;
-mod window;
+pub(crate) mod unit;
+pub(crate) mod window;
 
 use crate::clock::Now;
 use crate::error::CliError;
@@ -45,7 +45,7 @@ pub(crate) struct Scored {
 
 /// Share of surfaces on which truth and raster may disagree in one and the same frame. Silhouettes
 /// make at most 4e-4 of a picture of 320x180; a field of view wrong by 1 % makes .89.
-const DISAGREEMENT_LIMIT: f64 = 0.02;
+pub(crate) const DISAGREEMENT_LIMIT: f64 = 0.02;
 
 /// The work in progress.
 struct Run<'a> {
@@ -127,7 +127,7 @@ pub(crate) fn safe_name(name: &str) -> String {
 
 /// Truth counts as one variant.
 fn steps(plan: &Plan) -> u64 {
-    let windows = u64::from((plan.frames / plan.window).max(1));
+    let windows = u64::from((plan.frames / plan.sampling.window).max(1));
     let paths: usize = plan.jobs.iter().map(|j| j.paths.len()).sum();
     paths as u64 * windows * (1 + plan.variants.len() as u64)
 }
@@ -161,7 +161,7 @@ impl Run<'_> {
         }
         for name in &entry.paths {
             let path = scene.path(name)?;
-            let window_frames = self.plan.window.min(path.frames.len() as u32);
+            let window_frames = self.plan.sampling.window.min(path.frames.len() as u32);
             let usable = (path.frames.len() as u32).min(self.plan.frames);
             let windows = usable / window_frames;
             // From the middle of the path: what a path is made for grows or shows there.
@@ -169,8 +169,10 @@ impl Run<'_> {
             for first in (0..windows).map(|w| start + w * window_frames) {
                 let frames = &path.frames[first as usize..(first + window_frames) as usize];
                 self.progress.say(format!("{}, {name}: truth", scene.name));
-                let request = window::Request { scene, path, first, frames };
-                let window = Window::new(&request, (&tracer, &self.cache, &mut renderer), self.plan)?;
+                let request =
+                    window::Request { scene, path, first, frames, readings: window::Readings::Both };
+                let window =
+                    Window::new(&request, (&tracer, &self.cache, &mut renderer), &self.plan.sampling)?;
                 self.progress.advance(1);
                 let refused = window.disagreement() > DISAGREEMENT_LIMIT;
                 let variants = if refused {
@@ -179,7 +181,8 @@ impl Run<'_> {
                     self.window(&window, &mut renderer, &adapter_key)?
                 };
                 if !software && !refused {
-                    costs.extend(measure_cost(&mut renderer, &window, self.plan)?);
+                    renderer.set_past(window.past(window.middle()));
+                    costs.extend(measure_cost(&mut renderer, window.middle_frame(), &self.plan.variants)?);
                 }
                 let mut facts = window.facts(path);
                 if refused {
@@ -225,7 +228,7 @@ impl Run<'_> {
         for (place, &variant) in self.plan.variants.iter().enumerate() {
             interrupt::check(&self.settings.cache)?;
             self.progress.say(format!("{}, {}: {}", window.scene, window.path, variant.name()));
-            let key = unit::key(window, variant, (renderer, self.plan, adapter))?;
+            let key = unit::key(window, variant, (renderer, &self.plan.sampling, adapter))?;
             let measured = match self.units.read(&key) {
                 Some(stored) => stored,
                 None => {
@@ -235,7 +238,7 @@ impl Run<'_> {
                             "warning: {place}: a cached result was damaged; it is measured again"
                         ));
                     }
-                    let fresh = measure::measure(window, variant, renderer, self.plan)?;
+                    let fresh = measure::measure(window, variant, renderer, &self.plan.sampling)?;
                     self.units.write(&key, &fresh);
                     fresh
                 }

@@ -7,7 +7,7 @@ use umbrage_shadows::{Renderer, Seeding, VariantId};
 
 /// Where a value is taken.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Reading {
+pub(crate) enum Reading {
     /// At the anchor's own place: the last pass is dispatched over the anchors.
     Anchored,
     /// At the nearest pixel of a whole frame, as any picture from elsewhere must be read.
@@ -18,14 +18,14 @@ pub(super) enum Reading {
 
 /// How patterns are drawn, and for how many frames from the start of the window.
 #[derive(Clone, Copy)]
-pub(super) struct Draw {
-    pub(super) seeding: Seeding,
-    pub(super) seeds: u32,
-    pub(super) frames: usize,
+pub(crate) struct Draw {
+    pub(crate) seeding: Seeding,
+    pub(crate) seeds: u32,
+    pub(crate) frames: usize,
 }
 
 /// Shades every frame and seed.
-pub(super) fn shade_panel(
+pub(crate) fn shade_panel(
     window: &Window,
     (variant, renderer): (VariantId, &mut Renderer<'_>),
     reading: Reading,

@@ -13,28 +13,21 @@ use umbrage_shadows::{Gpu, LightKind, LightMap};
 
 /// What was run, on what.
 pub(super) fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provenance {
-    let adapter = gpu.description();
     Provenance {
         tool_version: env!("CARGO_PKG_VERSION").into(),
         date: settings.now.rfc3339.clone(),
         command: settings.command.clone(),
         suite: plan.name.clone(),
-        adapter: AdapterCard {
-            name: adapter.name.clone(),
-            driver: adapter.driver.clone(),
-            backend: adapter.backend.clone(),
-            device_type: adapter.device_type.into(),
-            is_cpu: adapter.is_software(),
-        },
-        width: plan.size.0,
-        height: plan.size.1,
-        frames: plan.window,
-        seeds: plan.seeds,
+        adapter: adapter_card(gpu),
+        width: plan.sampling.size.0,
+        height: plan.sampling.size.1,
+        frames: plan.sampling.window,
+        seeds: plan.sampling.seeds,
         tile_px: TILE_PX,
         shadow_map_texels: settings.map_texels,
         truth: TruthCard {
-            samples_per_half: plan.samples,
-            basis_samples: plan.basis_samples,
+            samples_per_half: plan.sampling.samples,
+            basis_samples: plan.sampling.basis_samples,
             method: "shafts: every triangle between point and light against Owen-scrambled Sobol samples; \
                      rays where there are too many"
                 .into(),
@@ -44,11 +37,26 @@ pub(super) fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provena
     }
 }
 
+/// What rendered the variants.
+pub(crate) fn adapter_card(gpu: &Gpu) -> AdapterCard {
+    let adapter = gpu.description();
+    AdapterCard {
+        name: adapter.name.clone(),
+        driver: adapter.driver.clone(),
+        backend: adapter.backend.clone(),
+        device_type: adapter.device_type.into(),
+        is_cpu: adapter.is_software(),
+    }
+}
+
 /// The rest of what is part of a score (METRICS section 2, last paragraph).
 fn notes(plan: &Plan, settings: &Settings) -> Vec<String> {
     let (limits, bootstrap, viewing) = (AgreementLimits::default(), Bootstrap::default(), Viewing::default());
     let mut notes = vec![
-        format!("{} frames from the middle of each path, in windows of {}", plan.frames, plan.window),
+        format!(
+            "{} frames from the middle of each path, in windows of {}",
+            plan.frames, plan.sampling.window
+        ),
         format!(
             "truth: {} scrambles in all; the pixel reading's truth has {PIXEL_SAMPLES} samples in each half",
             TruthSettings::default().replicates
@@ -71,7 +79,7 @@ fn notes(plan: &Plan, settings: &Settings) -> Vec<String> {
     ];
     notes.push(format!(
         "lag-1 correlations: {} frames and {} seeds of frozen and of animated patterns",
-        PATTERN_FRAMES.min(plan.window as usize),
+        PATTERN_FRAMES.min(plan.sampling.window as usize),
         PATTERN_SEEDS
     ));
     if let Some(bias) = settings.bias {

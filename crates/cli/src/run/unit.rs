@@ -5,14 +5,14 @@
 use super::measure::{Measured, Numbers};
 use super::window::Window;
 use crate::error::CliError;
-use crate::suite::Plan;
+use crate::suite::Sampling;
 use std::path::{Path, PathBuf};
 use umbrage_frame::{Image, read_exr, write_exr};
 use umbrage_report::VariantPictures;
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
 /// A folder of measured units that may be shared by processes.
-pub(super) struct Units {
+pub(crate) struct Units {
     folder: PathBuf,
 }
 
@@ -23,10 +23,10 @@ const CHECKSUM: &str = "checksum";
 
 /// The content that a unit follows from: truth, views (those before the window too), the recorded passes with their shaders and
 /// constants, adapter and driver, seeds, tool version.
-pub(super) fn key(
+pub(crate) fn key(
     window: &Window,
     variant: VariantId,
-    (renderer, plan, adapter): (&mut Renderer<'_>, &Plan, &str),
+    (renderer, sampling, adapter): (&mut Renderer<'_>, &Sampling, &str),
 ) -> Result<String, CliError> {
     let mut hasher = blake3::Hasher::new();
     let mut add = |part: &str| {
@@ -37,7 +37,7 @@ pub(super) fn key(
     add(adapter);
     add(&window.truth_key);
     add(&variant.name());
-    add(&format!("{} {:?} {}", plan.seeds, plan.size, window.first));
+    add(&format!("{} {:?} {}", sampling.seeds, sampling.size, window.first));
     for (frame, (view, light)) in window.frames.iter().enumerate() {
         add(&format!("{view:?} {light:?} {:?}", window.past(frame)));
     }
@@ -51,14 +51,14 @@ pub(super) fn key(
 
 /// Hash of the program itself: whatever else a result follows from (metrics, tile side, bootstrap)
 /// is in there, so that a rebuilt program never takes an older one's results for its own.
-pub(super) fn program_hash() -> String {
+pub(crate) fn program_hash() -> String {
     let bytes = std::env::current_exe().and_then(std::fs::read);
     bytes.map_or_else(|_| env!("CARGO_PKG_VERSION").into(), |b| blake3::hash(&b).to_hex().to_string())
 }
 
 impl Units {
     /// Opens the folder and clears away what killed runs left behind.
-    pub(super) fn open(folder: &Path) -> Result<Self, CliError> {
+    pub(crate) fn open(folder: &Path) -> Result<Self, CliError> {
         std::fs::create_dir_all(folder).map_err(CliError::file(folder))?;
         let units = Self { folder: folder.into() };
         let entries = std::fs::read_dir(folder).map_err(CliError::file(folder))?;
@@ -77,13 +77,13 @@ impl Units {
 
     /// Takes away a unit that is there but not whole, so that it can be stored again; whether there
     /// was one.
-    pub(super) fn discard_damaged(&self, key: &str) -> bool {
+    pub(crate) fn discard_damaged(&self, key: &str) -> bool {
         let path = self.path(key);
         path.exists() && self.read(key).is_none() && std::fs::remove_dir_all(path).is_ok()
     }
 
     /// A unit that is there and whole.
-    pub(super) fn read(&self, key: &str) -> Option<Measured> {
+    pub(crate) fn read(&self, key: &str) -> Option<Measured> {
         let folder = self.path(key);
         let text = std::fs::read(folder.join(NUMBERS)).ok()?;
         let picture_bytes = std::fs::read(folder.join(PICTURES)).ok()?;
@@ -103,7 +103,7 @@ impl Units {
     }
 
     /// Stores a unit. A disk that does not take it loses nothing but time: the run goes on.
-    pub(super) fn write(&self, key: &str, unit: &Measured) {
+    pub(crate) fn write(&self, key: &str, unit: &Measured) {
         let temporary = self.folder.join(format!("tmp-{}-{}", std::process::id(), &key[..16]));
         let stored = self.fill(&temporary, unit).and_then(|()| {
             let path = self.path(key);

@@ -1,7 +1,7 @@
 //! One window: its views, anchors, truth and tiles; everything that all variants share.
 
 use crate::error::CliError;
-use crate::suite::Plan;
+use crate::suite::Sampling;
 use crate::views::{past_of, view_of};
 use glam::Vec3;
 use std::time::Instant;
@@ -12,32 +12,42 @@ use umbrage_scene::{AreaLight, CameraPath, PathFrame, Scene};
 use umbrage_shadows::{LightMap, Renderer};
 
 /// What a window is made from.
-pub(super) struct Request<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) path: &'a CameraPath,
-    pub(super) first: u32,
-    pub(super) frames: &'a [PathFrame],
+pub(crate) struct Request<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) path: &'a CameraPath,
+    pub(crate) first: u32,
+    pub(crate) frames: &'a [PathFrame],
+    pub(crate) readings: Readings,
+}
+
+/// What a window has to be ready for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Readings {
+    /// At anchors alone: no truth of each frame's own pixels.
+    Anchored,
+    /// At anchors and at pixels, for edge crawl.
+    Both,
 }
 
 /// A window, ready for its variants.
-pub(super) struct Window {
-    pub(super) scene: String,
-    pub(super) path: String,
-    pub(super) first: u32,
+pub(crate) struct Window {
+    pub(crate) scene: String,
+    pub(crate) path: String,
+    pub(crate) first: u32,
     /// View and light of each frame.
-    pub(super) frames: Vec<(View, AreaLight)>,
+    pub(crate) frames: Vec<(View, AreaLight)>,
     /// Per frame, the views of those before it, newest first, also from before the window.
     pasts: Vec<Vec<View>>,
-    pub(super) anchors: Anchors,
+    pub(crate) anchors: Anchors,
     /// At the anchors.
-    pub(super) truth: PanelTruth,
-    /// At the pixels that penumbra anchors fall into, frame by frame; none for a window of one frame.
-    pub(super) pixel_truth: Option<PanelTruth>,
-    pub(super) tiling: Tiling,
+    pub(crate) truth: PanelTruth,
+    /// At the pixels that penumbra anchors fall into, frame by frame; none for a window of one frame, or when nobody asked.
+    pub(crate) pixel_truth: Option<PanelTruth>,
+    pub(crate) tiling: Tiling,
     /// Of everything that truth depends on.
-    pub(super) truth_key: String,
+    pub(crate) truth_key: String,
     /// Reflectance and cosine to the light per pixel of the middle frame.
-    pub(super) shading: Image<Vec3>,
+    pub(crate) shading: Image<Vec3>,
     coverage: Coverage,
     truth_secs: Option<f64>,
     notes: Vec<String>,
@@ -58,7 +68,7 @@ pub(crate) struct Facts {
 
 /// Truth of the pixel reading: unbiased at any number of samples, and only used for the difference
 /// between the two readings.
-pub(super) const PIXEL_SAMPLES: u32 = 64;
+pub(crate) const PIXEL_SAMPLES: u32 = 64;
 
 /// Sun discs smaller than a sample could resolve are exact anyway; these seeds keep the estimates
 /// of anchors and pixels apart.
@@ -67,21 +77,21 @@ const PIXEL_SEED: u64 = 2;
 
 impl Window {
     /// Finds anchors, truth, agreement and tiles.
-    pub(super) fn new(
+    pub(crate) fn new(
         request: &Request<'_>,
         (tracer, cache, renderer): (&Tracer, &Cache, &mut Renderer<'_>),
-        plan: &Plan,
+        sampling: &Sampling,
     ) -> Result<Self, CliError> {
         let started = Instant::now();
         let frames: Vec<(View, AreaLight)> =
-            request.frames.iter().map(|f| (view_of(f, plan.size), f.light)).collect();
+            request.frames.iter().map(|f| (view_of(f, sampling.size), f.light)).collect();
         let numbers = request.first..request.first + frames.len() as u32;
-        let pasts = numbers.map(|number| past_of(request.path, number, plan.size)).collect();
+        let pasts = numbers.map(|number| past_of(request.path, number, sampling.size)).collect();
         let (middle_view, middle_light) = frames[frames.len() / 2];
         let hits = tracer.primary(&middle_view);
         let anchors = Anchors::of(&hits.gbuffer);
         let mut truths = Truths { tracer, cache, computed: false, notes: Vec::new(), key: String::new() };
-        let (truth, facing) = truths.at_anchors(&hits.points(), &frames, plan)?;
+        let (truth, facing) = truths.at_anchors(&hits.points(), &frames, sampling)?;
         let (mut agreements, mut witnesses) = (Vec::new(), Vec::new());
         for (index, (view, light)) in frames.iter().enumerate() {
             let raster = renderer.gbuffer(view, light)?;
@@ -95,9 +105,11 @@ impl Window {
         }
         let (counts, coverage) = counted(&anchors, &facing, &agreements, &witnesses)?;
         let tiling = Tiling::new(&anchors, &truth, &counts, TILE_PX)?;
-        let pixel_truth = match frames.len() {
-            1 => None,
-            _ => Some(truths.at_pixels(&frames, (&anchors, &truth, &tiling))?),
+        let pixel_truth = match request.readings {
+            Readings::Both if frames.len() > 1 => {
+                Some(truths.at_pixels(&frames, (&anchors, &truth, &tiling))?)
+            }
+            _ => None,
         };
         let Truths { computed, mut notes, key, .. } = truths;
         notes.extend(outside_map_note(&anchors, &renderer.light_map(&middle_light)));
@@ -120,40 +132,46 @@ impl Window {
     }
 
     /// Share of surfaces on which truth and raster disagree in one and the same frame.
-    pub(super) fn disagreement(&self) -> f64 {
+    pub(crate) fn disagreement(&self) -> f64 {
         self.coverage.disagreement()
     }
 
     /// Keeps the patterns of this window apart from those of others: windows are resampled as
     /// independent.
-    pub(super) fn salt(&self) -> u32 {
+    pub(crate) fn salt(&self) -> u32 {
         let name = format!("{}/{}", self.scene, self.path);
         name.bytes().fold(0x811c_9dc5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
     }
 
     /// Where the camera was in the frames before one of the window, newest first.
-    pub(super) fn past(&self, frame: usize) -> Vec<View> {
+    pub(crate) fn past(&self, frame: usize) -> Vec<View> {
         self.pasts[frame].clone()
     }
 
+    /// View and light of the middle frame.
+    pub(crate) fn middle_frame(&self) -> (&View, &AreaLight) {
+        let (view, light) = &self.frames[self.middle()];
+        (view, light)
+    }
+
     /// Index of the middle frame.
-    pub(super) fn middle(&self) -> usize {
+    pub(crate) fn middle(&self) -> usize {
         self.frames.len() / 2
     }
 
     /// Picture size.
-    pub(super) fn size(&self) -> (u32, u32) {
+    pub(crate) fn size(&self) -> (u32, u32) {
         (self.anchors.view.width, self.anchors.view.height)
     }
 
     /// The scene lit by the true shadow.
-    pub(super) fn beauty(&self) -> Image<[f32; 3]> {
+    pub(crate) fn beauty(&self) -> Image<[f32; 3]> {
         let lit = self.spread(|point| self.truth.mean(point) as f32, 0.0);
         self.shaded(&lit)
     }
 
     /// The scene lit through a mask: a white light over a dim sky, display-linear.
-    pub(super) fn shaded(&self, mask: &Image<f32>) -> Image<[f32; 3]> {
+    pub(crate) fn shaded(&self, mask: &Image<f32>) -> Image<[f32; 3]> {
         const SKY: f32 = 0.15;
         let pixels = self.shading.pixels().iter().zip(mask.pixels());
         let (width, height) = self.size();
@@ -165,7 +183,7 @@ impl Window {
     }
 
     /// A value per point as a picture of the middle frame; `elsewhere` where there is no anchor.
-    pub(super) fn spread(&self, value: impl Fn(usize) -> f32, elsewhere: f32) -> Image<f32> {
+    pub(crate) fn spread(&self, value: impl Fn(usize) -> f32, elsewhere: f32) -> Image<f32> {
         let (width, height) = self.size();
         let mut image = Image::filled(width, height, elsewhere);
         for (point, &pixel) in self.anchors.pixel.iter().enumerate() {
@@ -175,12 +193,12 @@ impl Window {
     }
 
     /// Whether a point was scored.
-    pub(super) fn is_counted(&self, point: usize) -> bool {
+    pub(crate) fn is_counted(&self, point: usize) -> bool {
         self.tiling.regions[point] != Region::LeftOut
     }
 
     /// For the scorecard.
-    pub(super) fn facts(&self, path: &CameraPath) -> Facts {
+    pub(crate) fn facts(&self, path: &CameraPath) -> Facts {
         Facts {
             scene: self.scene.clone(),
             path: self.path.clone(),
@@ -236,11 +254,11 @@ impl Truths<'_> {
         &mut self,
         points: &Points,
         frames: &[(View, AreaLight)],
-        plan: &Plan,
+        sampling: &Sampling,
     ) -> Result<(PanelTruth, Vec<bool>), CliError> {
         let settings = TruthSettings {
-            samples: plan.samples,
-            basis_samples: plan.basis_samples,
+            samples: sampling.samples,
+            basis_samples: sampling.basis_samples,
             seed: ANCHOR_SEED,
             method: Method::Shafts,
             ..TruthSettings::default()

@@ -29,7 +29,7 @@ pub(super) fn xml(text: &str) -> String {
 }
 
 /// Text in a paragraph or a cell of Markdown: no markup, no links, no HTML, one line.
-pub(super) fn markdown(text: &str) -> String {
+pub(crate) fn markdown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

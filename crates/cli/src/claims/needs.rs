@@ -1,0 +1,87 @@
+//! What has to be measured for some claims, each thing once.
+
+use super::place::Place;
+use super::registry::{COSTS, Claim, Part, Registry};
+use super::subject::{Comparison, full_name};
+use crate::error::CliError;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use umbrage_metrics::{PooledNumber, SumKind};
+
+/// A way to measure a variant in a window.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Measure {
+    /// Patterns drawn afresh: cells, profile, blocks, widths, and a picture.
+    Scores,
+    /// One pattern frozen to the screen.
+    Frozen,
+    /// Beside another variant, by its full name.
+    Against(String),
+}
+
+/// Variants by place, with the ways in which each is measured.
+pub(crate) type Needs = BTreeMap<Place, BTreeMap<String, BTreeSet<Measure>>>;
+
+impl Measure {
+    /// What a part's number is made from.
+    pub(crate) fn of(number: PooledNumber, part: &Part) -> Self {
+        match number.kind() {
+            SumKind::Frozen => Self::Frozen,
+            SumKind::Against => Self::Against(full_name(part.against.as_deref().unwrap_or("hard"))),
+            _ => Self::Scores,
+        }
+    }
+}
+
+/// All that these claims need of pictures.
+pub(crate) fn needs(claims: &[&Claim], registry: &Registry) -> Result<Needs, CliError> {
+    let mut needs = Needs::new();
+    each_comparison(claims, registry, |part, comparison| {
+        let Some(number) = PooledNumber::named(&part.number) else { return };
+        for (place, variant) in comparison.units() {
+            let measures = needs.entry(place.clone()).or_default().entry(variant.to_string()).or_default();
+            // Scores bring the picture for the crop.
+            measures.extend([Measure::Scores, Measure::of(number, part)]);
+        }
+    })?;
+    Ok(needs)
+}
+
+/// All that these claims, and the table of times, need of a GPU's clock.
+pub(crate) fn cost_needs(
+    claims: &[&Claim],
+    registry: &Registry,
+) -> Result<BTreeMap<Place, BTreeSet<String>>, CliError> {
+    let mut needs: BTreeMap<Place, BTreeSet<String>> = BTreeMap::new();
+    each_comparison(claims, registry, |part, comparison| {
+        if COSTS.contains(&part.number.as_str()) {
+            for (place, variant) in comparison.units() {
+                needs.entry(place.clone()).or_default().insert(variant.to_string());
+            }
+        }
+    })?;
+    // The table of times is timed where everything else is timed.
+    if let Some(at_first) = needs.values_mut().next() {
+        at_first.extend(registry.time.iter().map(|row| full_name(&row.ours)));
+    }
+    Ok(needs)
+}
+
+fn each_comparison(
+    claims: &[&Claim],
+    registry: &Registry,
+    mut then: impl FnMut(&Part, &Comparison),
+) -> Result<(), CliError> {
+    for claim in claims {
+        for part in &claim.part {
+            let wrong = |message| CliError::Suite {
+                path: Path::new("claims").into(),
+                message: format!("{}, \"{}\": {message}", claim.id, part.says),
+            };
+            if let Some(comparison) = Comparison::of(part, registry).map_err(wrong)? {
+                then(part, &comparison);
+            }
+        }
+    }
+    Ok(())
+}
