@@ -65,7 +65,8 @@ pub(crate) struct EvaluateArgs {
     /// Scene by name (several by repeating): narrows a suite down.
     #[arg(long = "scene", value_name = "NAME")]
     pub(crate) scenes: Vec<String>,
-    /// Variant by name, `chss` or `chss/as-printed` (several by repeating); all otherwise.
+    /// Variant by name, `chss` or `chss/as-printed` (several by repeating), or `all`; those of the suite
+    /// otherwise.
     #[arg(long = "variant", value_name = "NAME")]
     pub(crate) variants: Vec<String>,
     /// Frames of each path; windows of 16 (fewer: one window; 1: temporal cells are not measured).

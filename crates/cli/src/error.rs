@@ -41,7 +41,7 @@ impl CliError {
         match self {
             Self::Usage(_)
             | Self::Scene(SceneError::UnknownName { .. })
-            | Self::Shadow(ShadowError::UnknownBackend { .. }) => 2,
+            | Self::Shadow(ShadowError::UnknownBackend { .. } | ShadowError::WrongLight { .. }) => 2,
             Self::NothingScored(_) => 3,
             Self::Interrupted { .. } => 130,
             _ => 4,

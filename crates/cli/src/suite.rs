@@ -20,6 +20,9 @@ struct SuiteFile {
     /// Pixels: `[width, height]`.
     #[serde(default)]
     size: Option<[u32; 2]>,
+    /// Variants by name, as for `--variant`; those of the standard suite when empty.
+    #[serde(default)]
+    variants: Vec<String>,
     /// Scenes and their paths.
     scene: Vec<SuiteScene>,
 }
@@ -80,7 +83,7 @@ impl Plan {
         let own = file.size.map(|[w, h]| check_size((w, h))).transpose();
         let own = own.map_err(|e| CliError::Usage(format!("the size of suite \"{}\": {e}", file.name)))?;
         let size = args.view.size.or(own.filter(|_| !quick));
-        let variants = variants_of(&args.variants)?;
+        let variants = able(chosen_variants(args, &file)?, &jobs, wants_all(&args.variants))?;
         if frames == 1 {
             check_history(&variants)?;
         }
@@ -98,6 +101,30 @@ impl Plan {
             },
         })
     }
+}
+
+/// Those of `--variant`, of the suite, or of the standard suite.
+fn chosen_variants(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<VariantId>, CliError> {
+    match (args.variants.as_slice(), file.variants.as_slice()) {
+        ([], []) => variants_of(&parse(STANDARD, Path::new("scenes/standard.toml"))?.variants),
+        ([], own) => variants_of(own),
+        (wanted, _) => variants_of(wanted),
+    }
+}
+
+fn wants_all(names: &[String]) -> bool {
+    names.iter().any(|name| name == "all")
+}
+
+/// Variants that can do the light of every scene. `all` means those; one that was named and cannot is
+/// refused.
+fn able(variants: Vec<VariantId>, jobs: &[Job], all: bool) -> Result<Vec<VariantId>, CliError> {
+    let check = |id: &VariantId| jobs.iter().try_for_each(|job| id.check_light(&job.scene.lights[0]));
+    if all {
+        return Ok(variants.into_iter().filter(|id| check(id).is_ok()).collect());
+    }
+    variants.iter().try_for_each(check)?;
+    Ok(variants)
 }
 
 /// One frame says nothing about what comes from the frames before it: its score would pass for that
@@ -141,7 +168,12 @@ fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {
     let stem =
         |p: &PathBuf| p.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned());
     let name = args.what.iter().map(stem).collect::<Vec<_>>().join("+");
-    Ok(SuiteFile { name, size: standard.size, scene: args.what.iter().map(scene).collect() })
+    Ok(SuiteFile {
+        name,
+        size: standard.size,
+        variants: vec![],
+        scene: args.what.iter().map(scene).collect(),
+    })
 }
 
 /// A suite names scenes; a scene file has geometry.
@@ -202,12 +234,9 @@ fn no_such_scene(file: &SuiteFile, wanted: &str) -> CliError {
     ))
 }
 
-/// The variants of the names given, in display order; all without names.
+/// The variants of the names given, in display order.
 pub(crate) fn variants_of(names: &[String]) -> Result<Vec<VariantId>, CliError> {
     let every: Vec<VariantId> = VARIANTS.iter().flat_map(|v| select_variants(v.name)).collect();
-    if names.is_empty() {
-        return Ok(every);
-    }
     let mut wanted: Vec<String> = Vec::new();
     for name in names {
         let found = select_variants(name);

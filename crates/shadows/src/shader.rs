@@ -76,7 +76,7 @@ shared! {
     SHAPE_PLANE = "shape_plane",
     SHAPE_DISTANCE = "shape_distance",
     SHAPE_DEPTH01 = "shape_depth01",
-    BLUR_AXIS = "blur_axis",
+    BLUR_TILE = "blur_tile",
     BLUR_DEPTH_AXIS = "blur_depth_axis",
     BLUR_DISTANCE_AXIS = "blur_distance_axis",
     MAX_AXIS = "max_axis",

@@ -22,7 +22,6 @@ const MASK_STEP: u32 = 4;
 pub(crate) struct Dump {
     pub(crate) visibility: Image<f32>,
     pub(crate) mask: Image<f32>,
-    pub(crate) rows: Image<f32>,
     pub(crate) blurred: Image<f32>,
     map: Image<f32>,
     depth: Image<f32>,
@@ -81,7 +80,6 @@ impl Dump {
         Self {
             visibility: only(""),
             mask: only(".penumbra-mask"),
-            rows: only(".penumbra-mask-rows"),
             blurred: only(".penumbra-mask-blurred"),
             map: only(".shadow-map"),
             normal: [axis("normal.X"), axis("normal.Y"), axis("normal.Z")],

@@ -7,6 +7,7 @@ use crate::error::CliError;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use umbrage_metrics::{PooledNumber, SumKind};
+use umbrage_shadows::{PROBES, VARIANTS};
 
 /// A way to measure a variant in a window.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -60,9 +61,12 @@ pub(crate) fn cost_needs(
             }
         }
     })?;
-    // The table of times is timed where everything else is timed.
-    if let Some(at_first) = needs.values_mut().next() {
-        at_first.extend(registry.time.iter().map(|row| full_name(&row.ours)));
+    // The table of times, and with it every technique, is timed in the scene as it is: the first place.
+    if let Some((place, names)) = needs.iter_mut().next() {
+        names.extend(registry.time.iter().map(|row| full_name(&row.ours)));
+        let light = place.build()?.lights[0];
+        let all = VARIANTS.iter().chain(PROBES).filter(|v| v.technique.lights().contain(&light));
+        names.extend(all.map(|v| full_name(v.name)));
     }
     Ok(needs)
 }

@@ -2,7 +2,7 @@
 
 use super::place::Place;
 use super::registry::{FullSubject, Other, Overrides, Part, Registry, Subject, Take};
-use umbrage_shadows::{VariantId, select_variants};
+use umbrage_shadows::{Calibration, PROBES, VariantId, select_variants};
 
 /// A variant at some places.
 #[derive(Clone, Debug)]
@@ -100,9 +100,13 @@ pub(crate) fn full_name(variant: &str) -> String {
     if variant.contains('/') { variant.into() } else { format!("{variant}/{DEFAULT}") }
 }
 
-/// The variant of a full name, where this build has it.
+/// The variant of a full name, probes included, where this build has it.
 pub(crate) fn variant_of(full_name: &str) -> Option<VariantId> {
-    select_variants(full_name).into_iter().next()
+    let probe = || {
+        let variant = PROBES.iter().find(|v| full_name.split('/').next() == Some(v.name))?;
+        Some(VariantId { variant, calibration: Calibration::LightMatched })
+    };
+    select_variants(full_name).into_iter().next().or_else(probe)
 }
 
 fn resolve(subject: &Subject, part: &Part, registry: &Registry) -> Result<Resolved, String> {

@@ -60,19 +60,21 @@ fn variants() -> Result<Table, CliError> {
     let scene = Scene::builtin("colonnade")?;
     let row = |variant: &'static umbrage_shadows::Variant| {
         let id = VariantId { variant, calibration: Calibration::LightMatched };
-        let info = id.info();
+        let (info, technique) = (id.info(), variant.technique);
         let both = Calibration::ALL.map(Calibration::name).join(" ");
         let passes = id.passes(&scene).join(" > ");
         vec![
             variant.name.to_string(),
             both,
+            info.document.to_string(),
+            info.options,
             info.taps,
             passes,
-            info.document.to_string(),
+            technique.lights().describe().to_string(),
             info.title.to_string(),
         ]
     };
-    let columns = &["variant", "calibrations", "taps", "passes", "document", "title"];
+    let columns = &["variant", "calibrations", "document", "options", "taps", "passes", "lights", "title"];
     Ok(Table { columns, rows: VARIANTS.iter().map(row).collect() })
 }
 

@@ -17,7 +17,7 @@ pub(crate) enum Likeness {
 /// Settings of the blur.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceBlur {
-    /// Weights and labels.
+    /// Weights and the label of the result.
     pub(crate) gauss: Blur,
     /// Pixels per mask texel and axis.
     pub(crate) step: u32,
@@ -43,7 +43,7 @@ pub(crate) fn surface_blur(
         Likeness::Distance => (shader::BLUR_DISTANCE_AXIS, "blur_distance_axis"),
     };
     let mut source = source;
-    for (axis, label) in settings.gauss.labels.into_iter().enumerate() {
+    for (axis, label) in ["penumbra-mask-rows", settings.gauss.label].into_iter().enumerate() {
         let destination = recording.texture(TextureInfo { label, ..recording.info(source).clone() });
         let [w0, w1, w2, w3] = settings.gauss.weights;
         let pass = ComputePass {

@@ -61,8 +61,7 @@ pub(crate) enum Searched {
 }
 
 /// The document's blur.
-pub(super) const BLUR: Blur =
-    Blur { weights: GAUSS_7, labels: ["penumbra-mask-rows", "penumbra-mask-blurred"] };
+pub(super) const BLUR: Blur = Blur { weights: GAUSS_7, label: "penumbra-mask-blurred" };
 
 /// Levels that the mask stores: the demo's has 8 bits, light-matched radii keep their floats (0).
 pub(super) fn levels(calibration: Calibration) -> u32 {

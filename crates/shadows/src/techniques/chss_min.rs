@@ -92,7 +92,7 @@ impl Technique for ChssMin {
         let map = shadow_map_cleared(recording, inputs, empty);
         let radius = region_radius(inputs.calibration, inputs.light);
         let minimum = min_filter(recording, map, MinFilter { shrink: SHRINK, radius });
-        let box_3 = Blur { weights: BOX_3, labels: ["min-map-rows", "min-map-blurred"] };
+        let box_3 = Blur { weights: BOX_3, label: "min-map-blurred" };
         let blurred = match self.smoothing {
             Smoothing::Raw => minimum,
             Smoothing::Box => blur(recording, minimum, box_3),

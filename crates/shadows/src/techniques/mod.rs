@@ -16,6 +16,7 @@ mod hard;
 mod lerp;
 mod low_res;
 mod pcf_disc;
+mod pcf_fetches;
 mod pcf_grid;
 mod pcss;
 mod screen_blur;
@@ -144,5 +145,8 @@ pub static VARIANTS: &[Variant] = &[
 ];
 
 /// What a variant does on the way, as variants whose value is no shadow: for claims, never scored.
-pub static PROBES: &[Variant] =
-    &[Variant { name: "chss-minmax-fetches", technique: &ChssMinmax { output: Output::Fetches } }];
+#[rustfmt::skip] // a table: a line a variant
+pub static PROBES: &[Variant] = &[
+    Variant { name: "chss-minmax-fetches", technique: &ChssMinmax { output: Output::Fetches } },
+    Variant { name: "pcf-vogel-16-fetches", technique: &pcf_fetches::PcfFetches { taps: 16 } },
+];

@@ -10,16 +10,15 @@ fn inside_map(uv: vec2<f32>) -> bool {
     return all(uv >= vec2(0.0)) && all(uv < vec2(1.0));
 }
 
-// The nearest texel's depth (far away outside the map), and the receiver's reference there.
+// The nearest texel's depth (far away outside the map), and the receiver's reference there. Without
+// a branch: the fetches of a loop then go out together.
 fn nearest_pair(s: ShadowPoint, offset_uv: vec2<f32>) -> vec2<f32> {
     let uv = s.uv + offset_uv;
-    if !inside_map(uv) {
-        return vec2(3.0e38, 0.0);
-    }
-    let size = MAP_TEXELS;
-    let texel = floor(uv * size);
-    let depth = textureLoad(shadow_map, vec2<u32>(texel), 0).x;
-    return vec2(depth, reference_depth(s, (texel + 0.5) / size - s.uv));
+    let texel = floor(uv * MAP_TEXELS);
+    let inside = clamp(texel, vec2(0.0), vec2(MAP_TEXELS - 1.0));
+    let depth = textureLoad(shadow_map, vec2<u32>(inside), 0).x;
+    let pair = vec2(depth, reference_depth(s, (texel + 0.5) / MAP_TEXELS - s.uv));
+    return select(vec2(3.0e38, 0.0), pair, inside_map(uv));
 }
 
 fn lit_nearest(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
@@ -31,18 +30,14 @@ fn lit_nearest(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
 // weights, differently on each adapter.
 fn lit_bilinear(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
     let uv = s.uv + offset_uv;
-    if !inside_map(uv) {
-        return 1.0;
-    }
-    let size = MAP_TEXELS;
-    let place = uv * size - 0.5;
+    let place = uv * MAP_TEXELS - 0.5;
     let base = floor(place);
     let weight = place - base;
     // Gathered from the corner that the four texels share: a driver's own rounding of `uv` could
     // pick a neighbouring footprint.
-    let depths = textureGather(0, shadow_map, nearest, (base + 1.0) / size);
-    let first = (base + 0.5) / size - s.uv;
-    let step = 1.0 / size;
+    let depths = textureGather(0, shadow_map, nearest, (base + 1.0) / MAP_TEXELS);
+    let first = (base + 0.5) / MAP_TEXELS - s.uv;
+    let step = 1.0 / MAP_TEXELS;
     let references = vec4(
         reference_depth(s, first + vec2(0.0, step)),
         reference_depth(s, first + vec2(step, step)),
@@ -50,5 +45,6 @@ fn lit_bilinear(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
         reference_depth(s, first),
     );
     let lit = select(vec4(0.0), vec4(1.0), references <= depths);
-    return mix(mix(lit.w, lit.z, weight.x), mix(lit.x, lit.y, weight.x), weight.y);
+    let mixed = mix(mix(lit.w, lit.z, weight.x), mix(lit.x, lit.y, weight.x), weight.y);
+    return select(1.0, mixed, inside_map(uv));
 }

@@ -151,10 +151,13 @@ fn in_stages() {
         ),
         (("chss-mask", AsPrinted, "penumbra_mask", "round(", "floor("), stages::check_mask),
         (("chss-mask", LightMatched, "seed_fresh", "pcg(PATTERN_SALT)", "pcg(0u)"), stages::check_mask),
-        (("chss-mask", LightMatched, "blur_axis", "k <= 3", "k <= 2"), stages::check_mask_blur),
+        (("chss-mask", LightMatched, "blur_tile", "WEIGHT_3 * p3", "WEIGHT_2 * p3"), stages::check_mask_blur),
         (("chss-min", LightMatched, "min_shrink", "k / SHRINK", "k % SHRINK"), stages::check_min_map),
         (("chss-min", LightMatched, "min_axis", "k <= RADIUS", "k < RADIUS"), stages::check_min_map),
-        (("chss-min", LightMatched, "blur_axis", "+ k * step", "+ (k + 1) * step"), stages::check_min_blur),
+        (
+            ("chss-min", LightMatched, "blur_tile", "group.xy * 8u) - 3", "group.xy * 8u) - 2"),
+            stages::check_min_blur,
+        ),
     ];
     for (plant, check) in plants {
         let ran = case_of(&plant, still_life::sun()).run();

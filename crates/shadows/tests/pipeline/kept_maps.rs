@@ -6,8 +6,7 @@ use umbrage_scene::{AreaLight, Camera, Scene};
 use umbrage_shadows::{Calibration, Gpu, Renderer, Seeding};
 
 /// Passes of the light's side, in order.
-const OF_THE_LIGHT: [&str; 6] =
-    ["shadow-map", "min-shrink", "min-rows", "min-map", "min-map-rows", "min-map-blurred"];
+const OF_THE_LIGHT: [&str; 5] = ["shadow-map", "min-shrink", "min-rows", "min-map", "min-map-blurred"];
 /// Passes of the camera's side.
 const OF_THE_CAMERA: [&str; 2] = ["depth-prepass", "chss-min"];
 
