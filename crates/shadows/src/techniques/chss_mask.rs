@@ -25,6 +25,17 @@ pub(crate) struct ChssMask {
     pub(crate) without_blocker: WithoutBlocker,
     /// Which map is searched.
     pub(crate) searched: Searched,
+    /// Whether narrow kernels take fewer taps (T11e).
+    pub(crate) taps: TapCount,
+}
+
+/// How many taps a kernel takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TapCount {
+    /// All, whatever its width.
+    All,
+    /// One below half a texel, where the bilinear compare is as wide; a quarter of them below one.
+    ByWidth,
 }
 
 /// What happens to the mask before it is used.
@@ -80,6 +91,7 @@ pub(crate) const PRINTED: ChssMask = ChssMask {
     smoothing: Smoothing::Gauss,
     without_blocker: WithoutBlocker::Nothing,
     searched: Searched::Full,
+    taps: TapCount::All,
 };
 
 impl Smoothing {
@@ -134,6 +146,7 @@ impl ChssMask {
             constants: vec![
                 ("MASK_STEP", f64::from(self.step)),
                 ("FILTER_TAPS", f64::from(self.filter_taps)),
+                ("FEW_TEXELS", f64::from(u8::from(self.taps == TapCount::ByWidth))),
             ],
             reads: vec![Binding::Source(mask)],
             pattern: Some(shader::PATTERN_IGN),

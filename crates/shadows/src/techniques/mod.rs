@@ -33,7 +33,7 @@ use crate::{Projection, Variant};
 use backprojection::{Backprojection, Hidden};
 use checker::{Checker, Depths, Noise, Radius};
 use chss_layers::{ChssLayers, Layers};
-use chss_mask::{ChssMask, Searched, Smoothing, WithoutBlocker};
+use chss_mask::{ChssMask, Searched, Smoothing, TapCount, WithoutBlocker};
 use chss_min::{ChssMin, Empty};
 use chss_minmax::{ChssMinmax, Output};
 use esm::Esm;
@@ -99,6 +99,7 @@ pub static VARIANTS: &[Variant] = &[
     Variant { name: "chss-mask-one-1.0", technique: &ChssMask { without_blocker: WithoutBlocker::Largest, search_scale: 1.0, ..chss_mask::PRINTED } },
     Variant { name: "chss-mask-16", technique: &ChssMask { search_taps: 16, ..chss_mask::PRINTED } },
     Variant { name: "chss-mask-small-map", technique: &ChssMask { searched: Searched::Halved, ..chss_mask::PRINTED } },
+    Variant { name: "chss-mask-few-taps", technique: &ChssMask { taps: TapCount::ByWidth, ..chss_mask::PRINTED } },
     // The minimum filter.
     Variant { name: "chss-min", technique: &chss_min::PRINTED },
     Variant { name: "chss-min-sharp", technique: &ChssMin { smoothing: chss_min::Smoothing::Raw, ..chss_min::PRINTED } },

@@ -39,6 +39,12 @@ fn plane_depth(s: ShadowPoint, offset: vec2<f32>) -> f32 {
     return sqrt(1.0 + dot(offset, offset)) / max(1.0 / s.depth + dot(s.slope, offset), 1e-6);
 }
 
+// Four texels of a face are not evenly spaced in tangents: taps of a cube take them one by one, and
+// this is never called.
+fn plane_quad(s: ShadowPoint, first: vec2<f32>, step: f32) -> vec4<f32> {
+    return vec4(plane_depth(s, first));
+}
+
 // Radius of the cone from a receiver to the light where it passes the blocker's distance, as a
 // tangent: R (z - b) / z across, over b.
 fn true_radius_uv(receiver: f32, blocker: f32) -> f32 {

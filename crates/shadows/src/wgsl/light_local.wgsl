@@ -35,6 +35,14 @@ fn plane_depth(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
     return 1.0 / max(1.0 / s.depth + dot(s.slope, offset_uv), 1e-6);
 }
 
+// The same at the four texels of a gather, in its order: 1/depth changes by as much from texel to texel.
+fn plane_quad(s: ShadowPoint, first: vec2<f32>, step: f32) -> vec4<f32> {
+    let change = s.slope * step;
+    let base = 1.0 / s.depth + dot(s.slope, first);
+    let all = base + vec4(change.y, change.x + change.y, change.x, 0.0);
+    return 1.0 / max(all, vec4(1e-6));
+}
+
 // Radius of the cone from a receiver to the light's disc where it passes the blocker's depth, in
 // map widths at that depth: R (z - b) / z across, divided by b.
 fn true_radius_uv(receiver: f32, blocker: f32) -> f32 {

@@ -26,6 +26,14 @@ fn plane_depth(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
     return s.depth + dot(s.slope, offset_uv);
 }
 
+// The same at the four texels of a gather, in its order: depth changes by as much from texel to texel.
+fn plane_quad(s: ShadowPoint, first: vec2<f32>, step: f32) -> vec4<f32> {
+    let change = s.slope * step;
+    let base = s.depth + dot(s.slope, first);
+    let all = base + vec4(change.y, change.x + change.y, change.x, 0.0);
+    return all;
+}
+
 // Radius of the cone from a receiver to the light's disc where it passes the blocker's depth:
 // for a straight edge parallel to the map this kernel has the true penumbra's profile.
 fn true_radius_uv(receiver: f32, blocker: f32) -> f32 {

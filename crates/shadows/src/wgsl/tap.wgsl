@@ -38,12 +38,7 @@ fn lit_bilinear(s: ShadowPoint, offset_uv: vec2<f32>) -> f32 {
     let depths = textureGather(0, shadow_map, nearest, (base + 1.0) / MAP_TEXELS);
     let first = (base + 0.5) / MAP_TEXELS - s.uv;
     let step = 1.0 / MAP_TEXELS;
-    let references = vec4(
-        reference_depth(s, first + vec2(0.0, step)),
-        reference_depth(s, first + vec2(step, step)),
-        reference_depth(s, first + vec2(step, 0.0)),
-        reference_depth(s, first),
-    );
+    let references = reference_quad(s, first, step);
     let lit = select(vec4(0.0), vec4(1.0), references <= depths);
     let mixed = mix(mix(lit.w, lit.z, weight.x), mix(lit.x, lit.y, weight.x), weight.y);
     return select(1.0, mixed, inside_map(uv));

@@ -43,7 +43,7 @@ const TAPS: &[Plant] = &[
     ),
     ("pcf-vogel-16", AsPrinted, "tap", "weight.x), weight.y)", "weight.y), weight.x)"),
     // References of other texels than the depths.
-    ("pcf-vogel-16", LightMatched, "tap", "first + vec2(step, 0.0)", "first + vec2(0.0, step)"),
+    ("pcf-vogel-16", LightMatched, "light_sun", "change.x, 0.0)", "change.y, 0.0)"),
     ("pcf-vogel-16", LightMatched, "tap", "(base + 0.5) / size - s.uv", "base / size - s.uv"),
     ("hard", LightMatched, "tap", "(texel + 0.5) / size - s.uv", "texel / size - s.uv"),
     ("hard", LightMatched, "tap", "pair.y <= pair.x", "pair.y - 0.1 <= pair.x"),
@@ -52,15 +52,9 @@ const TAPS: &[Plant] = &[
 ];
 
 const KERNELS: &[Plant] = &[
-    ("pcf-vogel-16", LightMatched, "kernel_vogel", "* 2.4", "* 2.5"),
-    ("pcf-vogel-16", LightMatched, "kernel_vogel", "f32(i) + 0.5", "f32(i)"),
-    (
-        "pcf-vogel-16",
-        LightMatched,
-        "kernel_vogel",
-        "vec2(cos(theta), sin(theta))",
-        "vec2(sin(theta), cos(theta))",
-    ),
+    ("pcf-vogel-16", LightMatched, "kernel_vogel", "VOGEL[i]", "VOGEL[i + 1u]"),
+    ("pcf-vogel-16", LightMatched, "kernel_vogel", "f32(count)", "(f32(count) + 1.0)"),
+    ("pcf-vogel-16", LightMatched, "kernel_vogel", "turned(VOGEL[i], turn)", "turned(VOGEL[i].yx, turn)"),
     ("pcf-vogel-16-ign", LightMatched, "pcf_disc", "TAU * pattern", "pattern"),
     ("pcf-vogel-16-ign", LightMatched, "pattern_ign", "52.9829189", "50.0"),
     ("pcf-vogel-16-ign", LightMatched, "pattern_ign", "floor(place) + 0.5", "floor(place)"),

@@ -62,7 +62,15 @@ fn one(plain: &Plain<'_>, name: &str, spot: &Spot) -> Option<f64> {
         _ if name.starts_with("chss-mask") => lit(s, &|s| {
             let label = if name.contains("-raw-") { "penumbra-mask" } else { "penumbra-mask-blurred" };
             let radius = fetched(plain.channel(label, 0, 0), spot.place.map(|c| c / 4.0));
-            plain.mean(&placed(&vogel(16), radius, ign), |o| plain.bilinear(s, o))
+            let texels = radius * plain.side();
+            // One tap below half a texel, four below one.
+            let taps = match name {
+                "chss-mask-few-taps" if texels < 0.5 => 1,
+                "chss-mask-few-taps" if texels < 1.0 => 4,
+                _ => 16,
+            };
+            let radius = if taps == 1 { 0.0 } else { radius };
+            plain.mean(&placed(&vogel(taps), radius, ign), |o| plain.bilinear(s, o))
         }),
         _ => return None,
     })
