@@ -5,8 +5,10 @@
 // Texels of the map per texel of the finest level.
 override MOMENTS_STEP: f32;
 
+// Its size is computed: asked for the size of a level that differs from pixel to pixel, llvmpipe
+// answers with one pixel's.
 fn moments_at(uv: vec2<f32>, level: u32) -> vec2<f32> {
-    let last = vec2<i32>(textureDimensions(moments, level)) - 1;
+    let last = max(vec2<i32>(textureDimensions(moments) >> vec2(level)), vec2(1)) - 1;
     let corner = uv * (f32(globals.map_size) / (MOMENTS_STEP * f32(1u << level))) - 0.5;
     let base = vec2<i32>(floor(corner));
     let weight = corner - floor(corner);

@@ -8,7 +8,7 @@ use crate::twins::screen::{Receiver, anchor, surface};
 use crate::twins::variants::{Answer, Twin};
 use umbrage_frame::{Anchors, Image};
 use umbrage_scene::{AreaLight, Scene};
-use umbrage_shadows::{Bias, Dump, Pass, Renderer, Seeding, VariantId};
+use umbrage_shadows::{Bias, Dump, Pass, Projection, Renderer, Seeding, VariantId};
 
 /// Side of the tests' shadow map: not a power of two, so that no division is exact by luck.
 pub(crate) const MAP_TEXELS: u32 = 500;
@@ -178,7 +178,11 @@ impl Ran {
     }
 
     pub(crate) fn light(&self) -> Light {
-        Light::new(&self.scene, &self.case.light, MAP_TEXELS)
+        let of = match self.case.variant.variant.technique.projection() {
+            Projection::Guarded => Light::guarded,
+            Projection::Single | Projection::Cube => Light::new,
+        };
+        of(&self.scene, &self.case.light, MAP_TEXELS)
     }
 
     /// The twin of a pass of this run: 0 for the last, 1 for the mask.

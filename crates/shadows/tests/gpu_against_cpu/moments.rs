@@ -100,6 +100,24 @@ fn the_filtered_map_is_a_mean_of_4x4_then_3x3() {
     cases("vsm-filtered").iter().for_each(|case| check_filtered(&case.run()));
 }
 
+/// The finest level of an exponential map: exp(c (z - far)), c = 80 over the depths that there are.
+/// The exponent is rounded by a few 2^-24 of 80.
+#[test]
+fn an_exponential_map_holds_its_exponential() {
+    for case in cases("esm") {
+        let ran = case.run();
+        let map = LightMap::new(&ran.scene, &case.light, MAP_TEXELS);
+        let (near, far) = (f64::from(map.nearest_blocker), f64::from(map.far));
+        let (depths, image) = (ran.image("shadow-map"), ran.image("exponential-mips"));
+        for k in 0..MAP_TEXELS {
+            let depth = f64::from(*depths.at(k, 3 * k % MAP_TEXELS));
+            let wanted = (80.0 * (depth - far) / (far - near)).exp();
+            let value = f64::from(*image.at(k, 3 * k % MAP_TEXELS));
+            assert!((value / wanted - 1.0).abs() < 1e-4, "{k}: {value}, {wanted} by definition");
+        }
+    }
+}
+
 /// Widths of boxes in texels, by column; rows choose the moment.
 const WIDTHS: [f64; 4] = [1.0, 1.7, 5.3, 9.0];
 const LOOKUP: &str = "let width = array(1.0, 1.7, 5.3, 9.0)[u32(r.place.x) % 4u]; \

@@ -1,7 +1,7 @@
 //! Errors planted in the pipeline's WGSL, one at a time: the twins must notice each. This is what
 //! makes their bounds and open decisions worth something.
 
-use crate::case::{Case, Ran};
+use crate::case::{Case, Ran, Reading};
 use crate::stages;
 use crate::support::edited::{Edit, with_edit};
 use crate::support::{still_life, variant_id};
@@ -87,6 +87,51 @@ const BIASES: &[Plant] = &[
     ("pcf-vogel-16", LightMatched, "bias_receiver_plane", "plane_depth(s, offset_uv)", "s.depth"),
     ("chss-mask", LightMatched, "surface", "vec2<f32>(pixel) + 0.5", "vec2<f32>(pixel)"),
 ];
+
+/// Errors that plain twins must notice, in moments of depth; at least one a technique.
+const MOMENTS: &[Plant] = &[
+    ("vsm", LightMatched, "chebyshev", "m.y - m.x * m.x", "m.y"),
+    ("vsm", LightMatched, "moments_mips", "- 0.5;", ";"),
+    ("vsm-listing", AsPrinted, "bound_listing", "depth - 0.02, depth", "depth, depth + 0.02"),
+    ("vsm-filtered", LightMatched, "moments_mips", "MOMENTS_STEP * f32(1u << level)", "0.5 * MOMENTS_STEP"),
+    ("vsm-lbr", LightMatched, "bound_reduced", " - BLEEDING) /", ") /"),
+    ("vsm-mips", LightMatched, "vsm", "2.0 * fixed_radius_uv", "fixed_radius_uv"),
+    ("vsm-sat", LightMatched, "moments_table", "corner - 1u", "corner"),
+    ("vsm-sat", LightMatched, "vsm", "2.0 * fixed_radius_uv", "fixed_radius_uv"),
+    ("vsm-search-mips", LightMatched, "moments_search", "m.x - lit * depth", "m.x - depth"),
+    ("vsm-search-mips", LightMatched, "moments_search", "2.0 * SEARCH_SCALE", "SEARCH_SCALE"),
+    ("vsm-search-sat", LightMatched, "vsm_search", "2.0 * kernel_radius_uv", "kernel_radius_uv"),
+    ("vsm-guard", LightMatched, "moments_search", "lit > 0.99", "lit > 0.9"),
+    ("vsm-poisson", LightMatched, "vsm_poisson", "* POISSON_RADIUS", ""),
+    (
+        "vsm-poisson",
+        LightMatched,
+        "vsm_poisson",
+        "reference_depth(s, offset)",
+        "reference_depth(s, vec2(0.0))",
+    ),
+    ("vsm-poisson-lod0", LightMatched, "vsm_poisson", "s.uv + offset", "s.uv - offset"),
+    ("vsm-poisson-listing", LightMatched, "vsm_poisson", "search_radius_uv(s.depth)", "0.0"),
+    (
+        "vsm-search-pcf",
+        LightMatched,
+        "vsm_pcf",
+        "kernel_radius_uv(s.depth, blocker)",
+        "search_radius_uv(s.depth)",
+    ),
+    ("esm", LightMatched, "esm", "vec2(0.0)", "vec2(0.001)"),
+    ("esm", LightMatched, "esm", "ESM_SHARPNESS * before_far", "0.9 * ESM_SHARPNESS * before_far"),
+];
+
+/// One result in a hundred outside of its band: the limit of the comparison is lower.
+#[test]
+fn in_moments() {
+    for plant in MOMENTS {
+        let bands = case_of(plant, still_life::sun()).run().compare_plain(Reading::Pixels);
+        let share = bands.outside.len() as f64 / bands.compared as f64;
+        assert!(share >= 0.01, "{plant:?}: only {share:.4} of the pixels differ");
+    }
+}
 
 #[test]
 fn in_taps() {

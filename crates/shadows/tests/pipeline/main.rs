@@ -8,6 +8,7 @@ mod support;
 mod anchors;
 mod bias;
 mod constants;
+mod coverage;
 mod depth;
 mod early_bounds;
 mod kept_maps;

@@ -20,6 +20,8 @@ pub(crate) struct Light {
     /// Depth of the shadow region's centre.
     pub(crate) eye_distance: Approx,
     pub(crate) reference_gap: Approx,
+    /// Depth of the far plane, a hundredth and a centimetre beyond all geometry.
+    pub(crate) far: f64,
     pub(crate) texels: u32,
 }
 
@@ -61,6 +63,7 @@ impl Light {
             let seen = triangles.map(|corners| corners.map(Approx3::from_vec)).filter(overlaps);
             let heights = seen.flatten().map(|p| p.minus(centre).dot(towards));
             let highest_seen = heights.reduce(Approx::max).expect("the map sees something");
+            let lowest = scene.geometry.positions.iter().map(height).fold(Approx::exact(0.0), Approx::min);
             let tangent = f64::from(0.5 * angular_diameter_radians).tan();
             Self {
                 axes,
@@ -71,6 +74,7 @@ impl Light {
                 nearest: eye_distance - highest_seen,
                 eye_distance,
                 reference_gap,
+                far: eye_distance.value - lowest.value * 1.01 + 0.01,
                 texels,
             }
         } else {
@@ -88,6 +92,7 @@ impl Light {
                 nearest: ONE,
                 eye_distance,
                 reference_gap,
+                far: 0.0,
                 texels,
             };
             let steepest = f64::from(region.width_world) / (2.0 * eye_distance.value);
@@ -95,8 +100,21 @@ impl Light {
             let corners = |t| scene.geometry.corners(t).map(|p| local.coordinates(Approx3::from_vec(p)));
             let triangles: Vec<_> = (0..scene.geometry.triangles.len()).map(corners).collect();
             local.nearest = nearest(&triangles, local.scale);
+            let depths = triangles.iter().flatten().map(|p| -p.0[2].value);
+            local.far = depths.fold(0.0, f64::max) * 1.01 + 0.01;
             local
         }
+    }
+
+    /// Of a map with a guard band: wider by the largest kernel on each side, the cone from the region's
+    /// centre to the nearest geometry.
+    pub(crate) fn guarded(scene: &Scene, light: &AreaLight, texels: u32) -> Self {
+        let single = Self::new(scene, light, texels);
+        let width = if single.is_sun { ONE } else { single.eye_distance };
+        let radius = single.cone(single.eye_distance, single.nearest) / single.scale * width;
+        let mut wider = scene.clone();
+        wider.shadow_region.width_world += 2.0 * radius.value as f32;
+        Self::new(&wider, light, texels)
     }
 
     /// Light-space coordinates of a world point.
