@@ -9,8 +9,8 @@ use umbrage_shadows::Calibration::{self, AsPrinted, LightMatched};
 type Plant = (&'static str, Calibration, [&'static str; 3]);
 
 const PLANTS: &[Plant] = &[
-    ("chss-early-out", LightMatched, ["chss_early_out", "tally.y == f32(SEARCH_TAPS)", "tally.y >= 24.0"]),
-    ("chss-early-out", LightMatched, ["chss_early_out", "tally.y == 0.0", "tally.y <= 4.0"]),
+    ("chss-early-out", LightMatched, ["chss_early_out", "tally.y == f32(SEARCH_TAPS)", "tally.y >= 16.0"]),
+    ("chss-early-out", LightMatched, ["chss_early_out", "tally.y == 0.0", "tally.y <= 6.0"]),
     (
         "chss-minmax",
         AsPrinted,
@@ -25,7 +25,11 @@ const PLANTS: &[Plant] = &[
     ("chs", LightMatched, ["chs", "floor(place + 0.5) - 4.0", "floor(place + 0.5) - 2.0"]),
     ("chs", LightMatched, ["chs", "+ 0.5 - length", "+ 1.5 - length"]),
     ("chss-layers-2", LightMatched, ["chss_layers", "next < pair.y", "next < pair.x"]),
-    ("chss-layers-4", LightMatched, ["chss_layers", "LAYERS > 2u", "LAYERS > 4u"]),
+    (
+        "chss-layers-4",
+        LightMatched,
+        ["chss_layers", "textureLoad(layer_2, texel", "textureLoad(layer_4, texel"],
+    ),
     ("backprojection", LightMatched, ["backprojection", "c.y * flat + under_circle(c.x)", "c.y * flat"]),
     ("backprojection", LightMatched, ["light_patches", "cells.stride / 2", "cells.stride"]),
     ("backprojection-bits", LightMatched, ["backprojection_bits", "32u * word + bit", "bit"]),

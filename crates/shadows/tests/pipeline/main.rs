@@ -11,6 +11,7 @@ mod constants;
 mod depth;
 mod early_bounds;
 mod kept_maps;
+mod layers;
 mod nearest;
 mod pyramids;
 mod seeding;
