@@ -5,6 +5,7 @@
 pub(crate) mod cube;
 pub(crate) mod deep;
 pub(crate) mod discs;
+pub(crate) mod separable;
 pub(crate) mod tables;
 
 use super::approx::{Approx, Approx3};
@@ -192,7 +193,7 @@ impl Plain<'_> {
 /// What a variant may say of a receiver: one number, or several where a rounding decides. Each family
 /// has a file; a variant without a twin fails the tests.
 pub(crate) fn shade(plain: &Plain<'_>, name: &str, spot: &Spot) -> Vec<f64> {
-    let families = [discs::shade, cube::shade, deep::shade];
+    let families = [discs::shade, cube::shade, deep::shade, separable::shade];
     let found = families.iter().find_map(|family| family(plain, name, spot));
     found.unwrap_or_else(|| panic!("{name} has no twin: write one"))
 }
