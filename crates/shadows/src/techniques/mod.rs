@@ -20,6 +20,7 @@ mod pcf_fetches;
 mod pcf_grid;
 mod pcss;
 mod screen_blur;
+mod sssm;
 mod temporal_checker;
 mod temporal_mask;
 mod vsm;
@@ -111,6 +112,7 @@ pub static VARIANTS: &[Variant] = &[
     Variant { name: "chs", technique: &chs::Chs },
     Variant { name: "chss-layers-2", technique: &ChssLayers { layers: Layers::Two } },
     Variant { name: "chss-layers-4", technique: &ChssLayers { layers: Layers::Four } },
+    Variant { name: "sssm", technique: &sssm::Sssm { side: 11 } },
     Variant { name: "backprojection", technique: &Backprojection { hidden: Hidden::Areas } },
     Variant { name: "backprojection-bits", technique: &Backprojection { hidden: Hidden::Bits } },
     // Fewer pixels.

@@ -9,7 +9,7 @@ use umbrage_scene::{AreaLight, Camera, Scene};
 use umbrage_shadows::{Calibration, Dump, Renderer, Seeding, VariantId};
 
 /// Rays through places of a picture (in texels), such that the ray's parameter is linear depth.
-struct Caster {
+pub(crate) struct Caster {
     eye: DVec3,
     right: DVec3,
     up: DVec3,
@@ -26,7 +26,7 @@ struct Caster {
 const U: f64 = 1.0 / (1u64 << 24) as f64;
 
 impl Caster {
-    fn of_light(scene: &Scene, light: &AreaLight) -> Self {
+    pub(crate) fn of_light(scene: &Scene, light: &AreaLight) -> Self {
         let region = scene.shadow_region;
         let (centre, half) = (region.centre.as_dvec3(), 0.5 * f64::from(region.width_world));
         let parallel = light.centre().is_none();
@@ -56,17 +56,22 @@ impl Caster {
     }
 
     /// Depth of the first surface, and of the last one that a depth buffer may take for it.
-    fn cast(&self, scene: &Scene, [u, v]: [f64; 2]) -> Option<(f64, f64)> {
+    fn cast(&self, scene: &Scene, place: [f64; 2]) -> Option<(f64, f64)> {
+        let hits = self.cast_all(scene, place);
+        let first = hits.iter().copied().reduce(f64::min)?;
+        let same = first + (self.resolution)(first, self.near);
+        Some((first, hits.into_iter().filter(|&depth| depth <= same).fold(first, f64::max)))
+    }
+
+    /// Depths of all surfaces along the ray, in no order.
+    pub(crate) fn cast_all(&self, scene: &Scene, [u, v]: [f64; 2]) -> Vec<f64> {
         let aside =
             self.right * ((2.0 * u - 1.0) * self.half[0]) + self.up * ((1.0 - 2.0 * v) * self.half[1]);
         let (origin, direction) =
             if self.parallel { (self.eye + aside, self.forward) } else { (self.eye, self.forward + aside) };
         let triangles = 0..scene.geometry.triangles.len();
         let hit = |t| intersect(origin, direction, scene.geometry.corners(t).map(Vec3::as_dvec3));
-        let hits: Vec<f64> = triangles.filter_map(hit).filter(|&depth| depth > self.near).collect();
-        let first = hits.iter().copied().reduce(f64::min)?;
-        let same = first + (self.resolution)(first, self.near);
-        Some((first, hits.into_iter().filter(|&depth| depth <= same).fold(first, f64::max)))
+        triangles.filter_map(hit).filter(|&depth| depth > self.near).collect()
     }
 }
 
@@ -91,10 +96,10 @@ fn intersect(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f
 
 /// Rasterisers move vertices to a grid of 1/256 pixel, an edge by half of that, and attributes may
 /// move along: depth is that of a point less than this away.
-const SNAP_PX: f64 = 1.0 / 256.0;
+pub(crate) const SNAP_PX: f64 = 1.0 / 256.0;
 
 /// Coordinates of up to 50 m pass a matrix and an interpolation: some 20 roundings.
-const ROUNDING_WORLD: f64 = 20.0 * U * 50.0;
+pub(crate) const ROUNDING_WORLD: f64 = 20.0 * U * 50.0;
 
 /// Compares `samples` random pixels; returns how many lie on a silhouette.
 fn compare(depths: &Image<f32>, scene: &Scene, (caster, far): (&Caster, f64), samples: u32) -> usize {

@@ -3,8 +3,9 @@
 
 use crate::support::edited::{Edit, with_edit};
 use crate::support::{self, still_life, variant_id};
+use glam::{Quat, Vec3};
 use umbrage_frame::View;
-use umbrage_scene::{AreaLight, Scene};
+use umbrage_scene::{AreaLight, Camera, Scene};
 use umbrage_shadows::{Calibration, PROBES, Renderer, Seeding, VariantId};
 
 /// A map whose side no power of two divides, and one that it does.
@@ -66,32 +67,47 @@ fn the_colonnade_is_the_same_pixel_for_pixel() {
     check(&scene, (&still_life::view_of(&scene.paths[0].frames[0].camera), &scene.lights));
 }
 
+/// A floor under a roof, both wider than the map: its border crosses an umbra.
+fn roofed() -> Scene {
+    let mut geometry = still_life::plane(6.0, Quat::IDENTITY);
+    let corners = [[-6.0, 1.0, -6.0], [-6.0, 1.0, 6.0], [6.0, 1.0, 6.0], [6.0, 1.0, -6.0]];
+    still_life::quad(&mut geometry, corners.map(Vec3::from));
+    still_life::of_geometry(geometry)
+}
+
+/// Along the floor to the map's border.
+fn under_the_roof() -> Camera {
+    Camera::look_at(Vec3::new(1.0, 0.7, 0.0), Vec3::new(3.6, 0.0, 0.0), 1.0, 0.1, 40.0)
+}
+
+#[test]
+fn the_maps_border_in_an_umbra_is_the_same_pixel_for_pixel() {
+    let lights = [still_life::sun()];
+    check(&roofed(), (&still_life::view_of(&under_the_roof()), &lights));
+}
+
 /// Bounds that are too tight must show: each of the edits takes away one thing that they allow for.
 #[test]
 fn bounds_that_are_too_tight_show() {
     let plants = [
         // Texels beside the disc that a bilinear compare reads.
         ("early_bounds", "FOOTPRINT_TEXELS: f32 = 1.5", "FOOTPRINT_TEXELS: f32 = 0.0"),
-        // The receiver's plane.
-        ("early_bounds", "let corner = half_side * sign(s.slope);", "let corner = vec2(0.0);"),
         // Where the map ends.
         ("early_bounds", "bounds.inside && ", ""),
-        // One texel of the four; the level below; the leftovers of an odd side.
+        // A texel of the pyramid, and a bound.
         ("map_bounds", "x <= end.x", "x < max(end.x, first.x + 1)"),
-        ("map_bounds", "return min(level, ", "return min(max(level - 1, 0), "),
-        ("min_max_level", "id.xy == size - 1u", "id.xy > size"),
         ("min_max_level", "min(range.x, pair.x)", "min(range.x, pair.y + 0.01)"),
     ];
-    let scene = still_life::scene();
-    let view = still_life::view_of(&still_life::camera());
+    let places = [(still_life::scene(), still_life::camera()), (roofed(), under_the_roof())];
     let mut gpu = support::gpu();
-    let mut renderer = Renderer::new(&mut gpu, &scene, MAPS[0]).expect("fits");
     for (fragment, from, to) in plants {
         let mut apart = 0;
-        for calibration in Calibration::ALL {
-            let edited = with_edit(variant_id("chss-minmax", calibration), Edit { fragment, from, to });
-            for light in [still_life::sun(), still_life::sphere()] {
-                apart += differing(&mut renderer, edited, (&view, &light)).0;
+        for (scene, camera) in &places {
+            let mut renderer = Renderer::new(&mut gpu, scene, MAPS[0]).expect("fits");
+            for calibration in Calibration::ALL {
+                let edited = with_edit(variant_id("chss-minmax", calibration), Edit { fragment, from, to });
+                let from = (&still_life::view_of(camera), &still_life::sun());
+                apart += differing(&mut renderer, edited, from).0;
             }
         }
         assert!(apart > 0, "{fragment}: {from} was not noticed");

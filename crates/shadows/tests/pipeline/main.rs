@@ -12,6 +12,7 @@ mod coverage;
 mod depth;
 mod early_bounds;
 mod kept_maps;
+mod layers;
 mod nearest;
 mod pyramids;
 mod seeding;

@@ -3,8 +3,10 @@
 //! of those answers.
 
 pub(crate) mod cube;
+pub(crate) mod deep;
 pub(crate) mod discs;
 pub(crate) mod moments;
+pub(crate) mod separable;
 pub(crate) mod tables;
 
 use super::approx::{Approx, Approx3};
@@ -192,7 +194,7 @@ impl Plain<'_> {
 /// What a variant may say of a receiver: one number, or several where a rounding decides. Each family
 /// has a file; a variant without a twin fails the tests.
 pub(crate) fn shade(plain: &Plain<'_>, name: &str, spot: &Spot) -> Vec<f64> {
-    let families = [discs::shade, cube::shade, moments::shade];
+    let families = [discs::shade, cube::shade, deep::shade, moments::shade, separable::shade];
     let found = families.iter().find_map(|family| family(plain, name, spot));
     found.unwrap_or_else(|| panic!("{name} has no twin: write one"))
 }

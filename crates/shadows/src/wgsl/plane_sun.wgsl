@@ -1,0 +1,11 @@
+// Slot `plane_point`: where the sun's ray beside the receiver's, by an offset in map widths, meets
+// the receiver's plane (world space).
+fn plane_point(r: Receiver, offset_uv: vec2<f32>) -> vec3<f32> {
+    let n = (globals.light_from_world * vec4(r.normal, 0.0)).xyz;
+    let across = vec2(offset_uv.x, -offset_uv.y) / globals.map_scale;
+    // Surfaces seen from behind are planes too; edge-on ones end somewhere.
+    let facing = select(-1.0, 1.0, n.z >= 0.0) * max(abs(n.z), 1e-3);
+    let step = vec3(across, -dot(n.xy, across) / facing);
+    // A rotation's inverse is its transpose: from light space back to the world.
+    return r.position + (vec4(step, 0.0) * globals.light_from_world).xyz;
+}
