@@ -12,6 +12,7 @@ mod support;
 mod twins;
 
 mod case;
+mod fewer;
 mod fragments;
 mod moments;
 mod planted;

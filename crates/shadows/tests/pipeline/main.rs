@@ -10,6 +10,7 @@ mod bias;
 mod constants;
 mod depth;
 mod early_bounds;
+mod history;
 mod kept_maps;
 mod nearest;
 mod pyramids;

@@ -4,13 +4,14 @@
 
 pub(crate) mod cube;
 pub(crate) mod discs;
+pub(crate) mod fewer;
 pub(crate) mod tables;
 
 use super::approx::{Approx, Approx3};
 use super::light::{Law, Light, Point};
 use super::pattern::Pattern;
 use super::screen::Receiver;
-use umbrage_frame::Image;
+use umbrage_frame::{Image, View};
 use umbrage_shadows::{Bias, Calibration, Dump};
 
 /// What a last pass may read.
@@ -19,6 +20,8 @@ pub(crate) struct Plain<'a> {
     pub(crate) calibration: Calibration,
     pub(crate) bias: Bias,
     pub(crate) pattern: Pattern,
+    /// Of this frame and those before it.
+    pub(crate) views: Vec<View>,
     /// Every target that the pipeline wrote before it.
     pub(crate) dumps: &'a [Dump],
 }
@@ -191,7 +194,7 @@ impl Plain<'_> {
 /// What a variant may say of a receiver: one number, or several where a rounding decides. Each family
 /// has a file; a variant without a twin fails the tests.
 pub(crate) fn shade(plain: &Plain<'_>, name: &str, spot: &Spot) -> Vec<f64> {
-    let families = [discs::shade, cube::shade];
+    let families = [discs::shade, cube::shade, fewer::shade];
     let found = families.iter().find_map(|family| family(plain, name, spot));
     found.unwrap_or_else(|| panic!("{name} has no twin: write one"))
 }
