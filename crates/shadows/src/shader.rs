@@ -119,7 +119,7 @@ shared! {
     WEIGHT_DEPTH = "weight_depth",
     WEIGHT_PLANE = "weight_plane",
     CHECKERBOARD = "checkerboard",
-    TARGET_CHECKER = "target_checker",
+    WHOLE = "whole",
     TARGET_SCALED = "target_scaled",
     ENTRY_TARGET = "entry_target",
     FILL_CHECKER = "fill_checker",

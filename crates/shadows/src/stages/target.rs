@@ -8,6 +8,8 @@ use crate::{Inputs, calibration};
 /// Which pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Grid {
+    /// All of them.
+    Whole,
     /// Every second one, in a target half as wide.
     Checkerboard,
     /// The same, and in every second frame the others.
@@ -28,6 +30,7 @@ impl Grid {
     /// Fragments that know its layout.
     pub(crate) fn fragments(self) -> Vec<Fragment> {
         match self {
+            Self::Whole => vec![shader::WHOLE],
             Self::Checkerboard | Self::FlippingCheckerboard => vec![shader::CHECKERBOARD],
             Self::Scaled { .. } => vec![shader::TARGET_SCALED],
         }
@@ -36,6 +39,7 @@ impl Grid {
     /// Their constants.
     pub(crate) fn constants(self) -> Vec<(&'static str, f64)> {
         match self {
+            Self::Whole => Vec::new(),
             Self::Checkerboard => vec![("FLIPS", 0.0)],
             Self::FlippingCheckerboard => vec![("FLIPS", 1.0)],
             Self::Scaled { numerator, denominator } => {
@@ -48,6 +52,7 @@ impl Grid {
     fn info(self, inputs: &Inputs<'_>) -> TextureInfo {
         let (width, height) = (inputs.view.width, inputs.view.height);
         let (label, width, height) = match self {
+            Self::Whole => ("lit-whole", width, height),
             Self::Checkerboard | Self::FlippingCheckerboard => {
                 (CHECKER_LABELS[inputs.age], width.div_ceil(2), height)
             }
@@ -80,9 +85,6 @@ pub(crate) fn shade_target(
     let mut fragments =
         vec![technique.own, shader::ENTRY_TARGET, shader::GLOBALS, shader::SURFACE, shader::TURN];
     fragments.extend(grid.fragments());
-    if !matches!(grid, Grid::Scaled { .. }) {
-        fragments.push(shader::TARGET_CHECKER);
-    }
     fragments.extend(technique.uses);
     fragments.extend(slots);
     fragments.extend(technique.pattern.into_iter().flat_map(|p| shade::seeded(p, inputs.seeding)));

@@ -37,6 +37,8 @@ pub(crate) enum Depths {
 
 /// A checkerboard of contact-hardening shadows.
 pub(crate) struct Checker {
+    /// `Grid::Whole` is the control: every pixel, read as a checkerboard is.
+    pub(crate) grid: Grid,
     pub(crate) radius: Radius,
     pub(crate) noise: Noise,
     pub(crate) depths: Depths,
@@ -44,7 +46,7 @@ pub(crate) struct Checker {
 
 /// The first document's own setting.
 pub(crate) const LISTED: Checker =
-    Checker { radius: Radius::Search, noise: Noise::Tall, depths: Depths::Bits32 };
+    Checker { grid: Grid::Checkerboard, radius: Radius::Search, noise: Noise::Tall, depths: Depths::Bits32 };
 
 /// Weights below whose sum a missing pixel is black: the demo's, or never.
 pub(super) fn zero_below(calibration: Calibration) -> f64 {
@@ -79,6 +81,9 @@ impl Technique for Checker {
         };
         Info {
             title: match self.radius {
+                _ if self.grid == Grid::Whole => {
+                    "contact hardening at full resolution in a target: a control for those with fewer pixels"
+                }
                 Radius::Search => {
                     "contact hardening for every second pixel, the others from their neighbours"
                 }
@@ -87,12 +92,16 @@ impl Technique for Checker {
                 }
             },
             document: match (self.noise, self.depths) {
+                _ if self.grid == Grid::Whole => "T11 read as T14: no document",
                 (Noise::Plain, _) => "T14 without its change of the noise: first document, section 3",
                 (_, Depths::Bits16) => "T14b: first document, section 3",
                 _ => "T14, T14a: first document, section 3, listing 7",
             },
             options: format!("{noise}, {depths}"),
             taps: match self.radius {
+                _ if self.grid == Grid::Whole => {
+                    format!("{} search + {} x 4", CHSS.search_taps, CHSS.filter_taps)
+                }
                 Radius::Search => format!("({} search + {} x 4) / 2", CHSS.search_taps, CHSS.filter_taps),
                 Radius::Mask => format!(
                     "{} search / 16 + {} x 4 / 2",
@@ -109,6 +118,9 @@ impl Technique for Checker {
             Radius::Search => CHSS.kernels(calibration),
             Radius::Mask => chss_mask::PRINTED.kernels(calibration),
         };
+        if self.grid == Grid::Whole {
+            return full;
+        }
         Kernels { kernel: format!("{}; {}", full.kernel, upsampling(calibration)), ..full }
     }
 
@@ -123,21 +135,17 @@ impl Technique for Checker {
         if self.noise == Noise::Tall {
             shading.pattern = Some(shader::PATTERN_IGN_TALL);
         }
-        let grid = Grid::Checkerboard;
-        let packed = shade_target(recording, inputs, grid, shading);
+        let packed = shade_target(recording, inputs, self.grid, shading);
         let bits = match self.depths {
             Depths::Bits32 => 32.0,
             Depths::Bits16 => 16.0,
         };
-        let mut constants = grid.constants();
+        let mut constants = self.grid.constants();
         constants.extend([("DEPTH_BITS", bits), ("ZERO_BELOW", zero_below(inputs.calibration))]);
-        let technique = Resolve {
-            label: "checker",
-            own: OWN,
-            uses: vec![shader::CHECKERBOARD, shader::FILL_CHECKER, inputs.calibration.weight()],
-            constants,
-            reads: vec![Binding::Source(packed)],
-        };
+        let mut uses = self.grid.fragments();
+        uses.extend([shader::FILL_CHECKER, inputs.calibration.weight()]);
+        let technique =
+            Resolve { label: "checker", own: OWN, uses, constants, reads: vec![Binding::Source(packed)] };
         resolve(recording, inputs, technique);
     }
 }

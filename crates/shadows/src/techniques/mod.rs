@@ -30,6 +30,7 @@ mod vsm_search;
 
 use crate::calibration::Law;
 use crate::stages::Area;
+use crate::stages::Grid;
 use crate::{Projection, Variant};
 use backprojection::{Backprojection, Hidden};
 use checker::{Checker, Depths, Noise, Radius};
@@ -116,6 +117,7 @@ pub static VARIANTS: &[Variant] = &[
     Variant { name: "backprojection", technique: &Backprojection { hidden: Hidden::Areas } },
     Variant { name: "backprojection-bits", technique: &Backprojection { hidden: Hidden::Bits } },
     // Fewer pixels.
+    Variant { name: "whole-chss", technique: &Checker { grid: Grid::Whole, ..checker::LISTED } },
     Variant { name: "checker-chss", technique: &checker::LISTED },
     Variant { name: "checker-chss-plain", technique: &Checker { noise: Noise::Plain, ..checker::LISTED } },
     Variant { name: "checker-chss-16bit", technique: &Checker { depths: Depths::Bits16, ..checker::LISTED } },

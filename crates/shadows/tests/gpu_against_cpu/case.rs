@@ -6,12 +6,15 @@ use crate::twins::pattern::Pattern;
 use crate::twins::plain::{Plain, Spot, shade};
 use crate::twins::screen::{Receiver, anchor, surface};
 use crate::twins::variants::{Answer, Twin};
-use umbrage_frame::{Anchors, Image};
+use umbrage_frame::{Anchors, Image, View};
 use umbrage_scene::{AreaLight, Scene};
 use umbrage_shadows::{Bias, Dump, Pass, Projection, Renderer, Seeding, VariantId};
 
 /// Side of the tests' shadow map: not a power of two, so that no division is exact by luck.
 pub(crate) const MAP_TEXELS: u32 = 500;
+
+/// Frames that a technique may look back.
+const MOST_HISTORY: usize = 3;
 
 /// What is run.
 #[derive(Clone)]
@@ -22,6 +25,8 @@ pub(crate) struct Case {
     /// Frame and seed of the pattern.
     pub(crate) pattern: [u32; 2],
     pub(crate) bias: Bias,
+    /// Where the camera was in the frames before, newest first; without any it stood still.
+    pub(crate) past: Vec<View>,
 }
 
 /// What the adapter computed.
@@ -71,6 +76,16 @@ fn within(value: f32, answers: &[f64], misses: &mut usize) -> bool {
 }
 
 impl Bands {
+    /// A result against what a twin says of its receiver and of those round it.
+    pub(crate) fn compare(&mut self, value: f32, spot: &Spot, twin: impl Fn(&Spot) -> Vec<f64>) {
+        let mut answers = twin(spot);
+        // Most need no second question.
+        if !within(value, &answers, &mut self.wide) {
+            answers.extend(spot.jittered().iter().flat_map(twin));
+        }
+        self.add(value, &answers);
+    }
+
     fn add(&mut self, value: f32, answers: &[f64]) {
         self.compared += 1;
         let low = answers.iter().copied().fold(f64::INFINITY, f64::min);
@@ -139,7 +154,13 @@ impl Case {
     /// A variant at its own bias, with a fresh pattern.
     pub(crate) fn new(variant: VariantId, light: AreaLight) -> Self {
         let bias = variant.calibration.default_bias();
-        Self { variant, light, seeding: Seeding::Fresh, pattern: [3, 7], bias }
+        Self { variant, light, seeding: Seeding::Fresh, pattern: [3, 7], bias, past: Vec::new() }
+    }
+
+    /// The camera of so many frames ago.
+    pub(crate) fn view(&self, age: usize) -> View {
+        let now = still_life::view_of(&still_life::camera());
+        if age == 0 { now } else { *self.past.get(age - 1).or(self.past.last()).unwrap_or(&now) }
     }
 
     /// Runs it over the frame and over the frame's pixel centres as anchors.
@@ -149,6 +170,7 @@ impl Case {
         let mut gpu = support::gpu();
         let mut renderer = Renderer::new(&mut gpu, &scene, MAP_TEXELS).expect("fits");
         renderer.set_bias(self.bias);
+        renderer.set_past(self.past.clone());
         let anchors = Anchors::of(&renderer.gbuffer(&view, &self.light).expect("rasterises"));
         renderer.set_anchors(&anchors).expect("fits");
         let what = ((&view, &self.light), (self.seeding, self.pattern));
@@ -173,8 +195,16 @@ impl Ran {
 
     /// The surface at a pixel, from the pipeline's own depth and normals.
     pub(crate) fn surface(&self, pixel: [u32; 2]) -> Option<Receiver> {
-        let targets = (self.image("camera-depth"), self.channels("camera-normal"));
-        surface(&still_life::view_of(&still_life::camera()), targets, pixel)
+        self.surface_of(0, pixel)
+    }
+
+    /// The same in the frame of so many frames ago.
+    pub(crate) fn surface_of(&self, age: usize, pixel: [u32; 2]) -> Option<Receiver> {
+        let [depth, normal] = match age {
+            0 => ["camera-depth".to_string(), "camera-normal".to_string()],
+            _ => ["depth", "normal"].map(|what| format!("earlier-{age}-{what}")),
+        };
+        surface(&self.case.view(age), (self.image(&depth), self.channels(&normal)), pixel)
     }
 
     pub(crate) fn light(&self) -> Light {
@@ -206,7 +236,8 @@ impl Ran {
     /// The plain twin of a pass of this run.
     pub(crate) fn plain<'a>(&'a self, light: &'a Light, pass: u32) -> Plain<'a> {
         let Twin { calibration, bias, pattern, .. } = self.twin(light, pass);
-        Plain { light, calibration, bias, pattern, dumps: &self.dumps }
+        let views = (0..=MOST_HISTORY).map(|age| self.case.view(age)).collect();
+        Plain { light, calibration, bias, pattern, views, dumps: &self.dumps }
     }
 
     /// One in four pixels, or anchors, against the band of the plain twin.
@@ -214,13 +245,7 @@ impl Ran {
         let (light, mut bands) = (self.light(), Bands::default());
         let (plain, name) = (self.plain(&light, 0), self.case.variant.variant.name);
         let mut add = |receiver: &Receiver, value: f32| {
-            let spot = Spot::of(receiver);
-            let mut answers = shade(&plain, name, &spot);
-            // Most need no second question.
-            if !within(value, &answers, &mut bands.wide) {
-                answers.extend(spot.jittered().iter().flat_map(|s| shade(&plain, name, s)));
-            }
-            bands.add(value, &answers);
+            bands.compare(value, &Spot::of(receiver), |s| shade(&plain, name, s));
         };
         match reading {
             Reading::Pixels => {

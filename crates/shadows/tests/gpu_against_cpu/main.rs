@@ -13,6 +13,7 @@ mod twins;
 
 mod case;
 mod deep;
+mod fewer;
 mod fragments;
 mod moments;
 mod planted;

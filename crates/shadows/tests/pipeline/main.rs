@@ -11,6 +11,7 @@ mod constants;
 mod coverage;
 mod depth;
 mod early_bounds;
+mod history;
 mod kept_maps;
 mod layers;
 mod nearest;

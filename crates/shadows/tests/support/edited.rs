@@ -18,7 +18,7 @@ pub(crate) struct Edit {
 }
 
 /// Applied to the recording of another technique.
-type Change = Box<dyn Fn(&mut Recording) + Sync>;
+pub(crate) type Change = Box<dyn Fn(&mut Recording) + Sync>;
 
 struct Edited {
     original: &'static dyn Technique,
@@ -54,7 +54,8 @@ impl Technique for Edited {
     }
 }
 
-fn with_change(original: VariantId, change: Change) -> VariantId {
+/// The variant whose recording is changed before it runs.
+pub(crate) fn with_change(original: VariantId, change: Change) -> VariantId {
     // Variants live as long as the program: a few bytes a test.
     let technique: &'static Edited =
         Box::leak(Box::new(Edited { original: original.variant.technique, change }));
@@ -74,6 +75,17 @@ pub(crate) fn with_edit(original: VariantId, edit: Edit) -> VariantId {
             }
         }
         assert!(found > 0, "{edit:?}: no pass uses this fragment");
+    };
+    with_change(original, Box::new(change))
+}
+
+/// The variant with a shared fragment in place of another.
+pub(crate) fn swapped(original: VariantId, from: &'static str, to: &'static str) -> VariantId {
+    let all = umbrage_shadows::fragments();
+    let other = all.into_iter().find(|f| f.name == to).unwrap_or_else(|| panic!("no fragment {to}"));
+    let change = move |recording: &mut Recording| {
+        let used = recording.passes.iter_mut().flat_map(shader_of).filter(|f| f.name == from);
+        used.for_each(|fragment| *fragment = other.clone());
     };
     with_change(original, Box::new(change))
 }

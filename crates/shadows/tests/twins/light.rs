@@ -10,7 +10,7 @@ use umbrage_shadows::{Bias, Calibration, ConstantBias, ReceiverPlane};
 pub(crate) struct Light {
     axes: [Approx3; 3],
     eye: Approx3,
-    is_sun: bool,
+    pub(crate) is_sun: bool,
     /// Map widths per metre (sun) or per unit of slope.
     pub(crate) scale: Approx,
     /// Tangent of a sun's angular radius, or the radius in metres.

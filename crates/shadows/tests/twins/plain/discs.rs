@@ -105,7 +105,12 @@ fn cap(plain: &Plain<'_>, name: &str, z: f64) -> f64 {
 }
 
 /// Blocker search and filter, one angle for both.
-fn chss(plain: &Plain<'_>, s: &Shadowed, (taps, angle): (u32, f64), law: &dyn Fn(f64, f64) -> f64) -> f64 {
+pub(super) fn chss(
+    plain: &Plain<'_>,
+    s: &Shadowed,
+    (taps, angle): (u32, f64),
+    law: &dyn Fn(f64, f64) -> f64,
+) -> f64 {
     let blocker = plain.mean_blocker(s, &placed(&vogel(taps), plain.search(s.depth), angle));
     let radius = blocker.map_or(0.0, |b| law(s.depth, b));
     plain.mean(&placed(&vogel(16), radius, angle), |o| plain.bilinear(s, o))

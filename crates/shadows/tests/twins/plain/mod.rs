@@ -7,13 +7,14 @@ pub(crate) mod deep;
 pub(crate) mod discs;
 pub(crate) mod moments;
 pub(crate) mod separable;
+pub(crate) mod fewer;
 pub(crate) mod tables;
 
 use super::approx::{Approx, Approx3};
 use super::light::{Law, Light, Point};
 use super::pattern::Pattern;
 use super::screen::Receiver;
-use umbrage_frame::Image;
+use umbrage_frame::{Image, View};
 use umbrage_shadows::{Bias, Calibration, Dump};
 
 /// What a last pass may read.
@@ -22,6 +23,8 @@ pub(crate) struct Plain<'a> {
     pub(crate) calibration: Calibration,
     pub(crate) bias: Bias,
     pub(crate) pattern: Pattern,
+    /// Of this frame and those before it.
+    pub(crate) views: Vec<View>,
     /// Every target that the pipeline wrote before it.
     pub(crate) dumps: &'a [Dump],
 }
@@ -194,7 +197,7 @@ impl Plain<'_> {
 /// What a variant may say of a receiver: one number, or several where a rounding decides. Each family
 /// has a file; a variant without a twin fails the tests.
 pub(crate) fn shade(plain: &Plain<'_>, name: &str, spot: &Spot) -> Vec<f64> {
-    let families = [discs::shade, cube::shade, deep::shade, moments::shade, separable::shade];
+    let families = [discs::shade, cube::shade, deep::shade, fewer::shade, moments::shade, separable::shade];
     let found = families.iter().find_map(|family| family(plain, name, spot));
     found.unwrap_or_else(|| panic!("{name} has no twin: write one"))
 }
