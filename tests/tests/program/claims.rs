@@ -8,7 +8,7 @@ use umbrage_tests::{empty_folder, run, umbrage};
 const SMALL: &str = r#"
 [margin]
 error = { ratio = 0.05, absolute = 0.002 }
-noise = { ratio = 0.1, absolute = 1e-4 }
+noise = { ratio = 0.1, absolute = 0.0 }
 differing = { absolute = 0.0 }
 vogel_radii = { absolute = 1e-6 }
 

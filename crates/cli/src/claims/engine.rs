@@ -164,6 +164,7 @@ impl Run<'_> {
             None => {
                 let fresh = match (measure, companion) {
                     (Measure::Scores, _) => ways::scores(window, (variant, renderer), sampling)?,
+                    (Measure::Values, _) => ways::values(window, (variant, renderer), sampling)?,
                     (Measure::Frozen, _) => ways::frozen(window, (variant, renderer))?,
                     (Measure::Against(_), other) => {
                         ways::against(window, (variant, other.unwrap_or(variant)), (renderer, sampling))?

@@ -18,6 +18,8 @@ pub(crate) enum Measure {
     Frozen,
     /// Beside another variant, by its full name.
     Against(String),
+    /// The plain values, of a probe.
+    Values,
 }
 
 /// Variants by place, with the ways in which each is measured.
@@ -29,6 +31,7 @@ impl Measure {
         match number.kind() {
             SumKind::Frozen => Self::Frozen,
             SumKind::Against => Self::Against(full_name(part.against.as_deref().unwrap_or("hard"))),
+            SumKind::Values => Self::Values,
             _ => Self::Scores,
         }
     }
@@ -41,8 +44,10 @@ pub(crate) fn needs(claims: &[&Claim], registry: &Registry) -> Result<Needs, Cli
         let Some(number) = PooledNumber::named(&part.number) else { return };
         for (place, variant) in comparison.units() {
             let measures = needs.entry(place.clone()).or_default().entry(variant.to_string()).or_default();
-            // Scores bring the picture for the crop.
-            measures.extend([Measure::Scores, Measure::of(number, part)]);
+            let measure = Measure::of(number, part);
+            // Scores bring the picture for the crop; what a probe counts is no picture.
+            let picture = (measure != Measure::Values).then_some(Measure::Scores);
+            measures.extend(picture.into_iter().chain([measure]));
         }
     })?;
     Ok(needs)

@@ -8,7 +8,8 @@ use crate::run::window::Window;
 use crate::suite::Sampling;
 use std::collections::BTreeMap;
 use umbrage_metrics::{
-    Panel, SumKind, against_sums, block_sums, point_maps, width_sums, window_profiles, window_tiles,
+    Panel, SumKind, against_sums, block_sums, point_maps, value_sums, width_sums, window_profiles,
+    window_tiles,
 };
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
@@ -66,6 +67,16 @@ pub(super) fn frozen(
     let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
     let table = window_tiles(&panel, &window.truth, &window.tiling)?.sum_table();
     Ok(Unit { tables: BTreeMap::from([(SumKind::Frozen, table)]), mask: vec![] })
+}
+
+/// What a probe counts.
+pub(super) fn values(
+    window: &Window,
+    (variant, renderer): (VariantId, &mut Renderer<'_>),
+    sampling: &Sampling,
+) -> Result<Unit, CliError> {
+    let table = value_sums(&fresh(window, (variant, renderer), sampling)?, &window.tiling)?;
+    Ok(Unit { tables: BTreeMap::from([(SumKind::Values, table)]), mask: vec![] })
 }
 
 /// Two variants at the same points.

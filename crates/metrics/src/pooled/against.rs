@@ -33,6 +33,19 @@ pub fn against_sums(a: &Panel, b: &Panel, tiling: &Tiling) -> Result<SumTable, M
     Ok(SumTable { rows: tiling.tiles.iter().map(row).collect() })
 }
 
+/// Sums per tile of a panel's values over all counted points.
+///
+/// # Errors
+/// A panel that is not of these points.
+pub fn value_sums(panel: &Panel, tiling: &Tiling) -> Result<SumTable, MetricsError> {
+    check_points(panel, tiling)?;
+    let row = |tile: &crate::Tile| {
+        let sum = tile.points().map(|p| mean(panel, p as usize)).sum::<f64>();
+        (tile.column, tile.row, vec![tile.points().count() as f64, sum])
+    };
+    Ok(SumTable { rows: tiling.tiles.iter().map(row).collect() })
+}
+
 fn mean(panel: &Panel, point: usize) -> f64 {
     let draws = panel.frames * panel.seeds;
     (0..draws).map(|d| f64::from(panel.values[d * panel.points + point])).sum::<f64>() / draws as f64
@@ -54,4 +67,8 @@ pub(super) fn squared(sums: &[f64]) -> f64 {
 
 pub(super) fn differing(sums: &[f64]) -> f64 {
     sums[DIFFERING] / sums[VALUES]
+}
+
+pub(super) fn value(sums: &[f64]) -> f64 {
+    sums[1] / sums[POINTS]
 }

@@ -8,7 +8,7 @@ mod blocks;
 mod joint;
 mod widths;
 
-pub use against::against_sums;
+pub use against::{against_sums, value_sums};
 pub use blocks::block_sums;
 pub use joint::{Member, compare_jointly};
 pub use widths::width_sums;
@@ -41,6 +41,8 @@ pub enum SumKind {
     Widths,
     /// Two variants at the same points: [`against_sums`].
     Against,
+    /// The plain values: [`value_sums`].
+    Values,
 }
 
 /// A number by name.
@@ -74,10 +76,12 @@ pub enum PooledNumber {
     Departure,
     /// Share of values whose bits differ from another variant's.
     Differing,
+    /// Mean value over all counted points: what a probe counts.
+    MeanValue,
 }
 
 /// The numbers that are no [`Quantity`], with their names.
-const NAMED: [(&str, PooledNumber); 13] = [
+const NAMED: [(&str, PooledNumber); 14] = [
     ("flicker", PooledNumber::Flicker),
     ("width_ratio", PooledNumber::WidthRatio),
     ("width_anisotropy", PooledNumber::WidthAnisotropy),
@@ -91,6 +95,7 @@ const NAMED: [(&str, PooledNumber); 13] = [
     ("swim_meets_change", PooledNumber::SwimMeetsChange),
     ("departure", PooledNumber::Departure),
     ("differing", PooledNumber::Differing),
+    ("mean_value", PooledNumber::MeanValue),
 ];
 
 impl PooledNumber {
@@ -118,6 +123,7 @@ impl PooledNumber {
                 SumKind::Widths
             }
             Self::Departure | Self::Differing => SumKind::Against,
+            Self::MeanValue => SumKind::Values,
         }
     }
 
@@ -158,6 +164,7 @@ impl PooledNumber {
             Self::SwimMeetsChange => widths::correlation(windows, widths::SWIM),
             Self::Departure => mean(&against::squared).sqrt(),
             Self::Differing => mean(&against::differing),
+            Self::MeanValue => mean(&against::value),
         }
     }
 
