@@ -34,7 +34,8 @@ pub(crate) struct ChssMask {
 pub(crate) enum TapCount {
     /// All, whatever its width.
     All,
-    /// One below half a texel, where the bilinear compare is as wide; a quarter of them below one.
+    /// One below half a texel, where the bilinear compare is as wide; a quarter of them below one
+    /// texel, half below two: the taps' texels then still overlap.
     ByWidth,
 }
 
@@ -146,7 +147,7 @@ impl ChssMask {
             constants: vec![
                 ("MASK_STEP", f64::from(self.step)),
                 ("FILTER_TAPS", f64::from(self.filter_taps)),
-                ("FEW_TEXELS", f64::from(u8::from(self.taps == TapCount::ByWidth))),
+                ("FEW_TEXELS", if self.taps == TapCount::ByWidth { 2.0 } else { 0.0 }),
             ],
             reads: vec![Binding::Source(mask)],
             pattern: Some(shader::PATTERN_IGN),

@@ -26,12 +26,12 @@ fn notices(plant: &Plant, case: &Case) {
 
 const TAPS: &[Plant] = &[
     // Half a texel.
-    ("hard", LightMatched, "tap", "floor(uv * size)", "floor(uv * size + 0.5)"),
-    ("pcf-grid-11", LightMatched, "tap", "floor(uv * size)", "floor(uv * size + vec2(0.0, 0.5))"),
-    ("pcf-vogel-16", LightMatched, "tap", "uv * size - 0.5", "uv * size"),
-    ("pcf-vogel-16", AsPrinted, "tap", "uv * size - 0.5", "uv * size"),
+    ("hard", LightMatched, "tap", "floor(uv * MAP_TEXELS)", "floor(uv * MAP_TEXELS + 0.5)"),
+    ("pcf-grid-11", LightMatched, "tap", "floor(uv * MAP_TEXELS)", "floor(uv * MAP_TEXELS + vec2(0.0, 0.5))"),
+    ("pcf-vogel-16", LightMatched, "tap", "uv * MAP_TEXELS - 0.5", "uv * MAP_TEXELS"),
+    ("pcf-vogel-16", AsPrinted, "tap", "uv * MAP_TEXELS - 0.5", "uv * MAP_TEXELS"),
     // A texel of the gather, and components in a wrong order: each pair once.
-    ("pcf-vogel-16", AsPrinted, "tap", "(base + 1.0) / size", "(base + 2.0) / size"),
+    ("pcf-vogel-16", AsPrinted, "tap", "(base + 1.0) / MAP_TEXELS", "(base + 2.0) / MAP_TEXELS"),
     ("pcf-vogel-16", AsPrinted, "tap", "mix(lit.w, lit.z", "mix(lit.z, lit.w"),
     ("pcf-vogel-16", AsPrinted, "tap", "mix(lit.x, lit.y", "mix(lit.y, lit.x"),
     (
@@ -44,11 +44,11 @@ const TAPS: &[Plant] = &[
     ("pcf-vogel-16", AsPrinted, "tap", "weight.x), weight.y)", "weight.y), weight.x)"),
     // References of other texels than the depths.
     ("pcf-vogel-16", LightMatched, "light_sun", "change.x, 0.0)", "change.y, 0.0)"),
-    ("pcf-vogel-16", LightMatched, "tap", "(base + 0.5) / size - s.uv", "base / size - s.uv"),
-    ("hard", LightMatched, "tap", "(texel + 0.5) / size - s.uv", "texel / size - s.uv"),
+    ("pcf-vogel-16", LightMatched, "tap", "(base + 0.5) / MAP_TEXELS - s.uv", "base / MAP_TEXELS - s.uv"),
+    ("hard", LightMatched, "tap", "(texel + 0.5) / MAP_TEXELS - s.uv", "texel / MAP_TEXELS - s.uv"),
     ("hard", LightMatched, "tap", "pair.y <= pair.x", "pair.y - 0.1 <= pair.x"),
     // A map whose outside blocks.
-    ("pcf-vogel-16", LightMatched, "tap", "return 1.0;", "return 0.0;"),
+    ("pcf-vogel-16", LightMatched, "tap", "select(1.0, mixed", "select(0.0, mixed"),
 ];
 
 const KERNELS: &[Plant] = &[
@@ -65,7 +65,7 @@ const KERNELS: &[Plant] = &[
 ];
 
 const LAWS: &[Plant] = &[
-    ("chss", LightMatched, "blocker_search", "sum / count", "sum / f32(SEARCH_TAPS)"),
+    ("chss", LightMatched, "blocker_search", "tally.x / tally.y,", "tally.x / f32(SEARCH_TAPS),"),
     ("chss", AsPrinted, "blocker_search", "pair.x < pair.y", "pair.x < s.depth"),
     ("chss", AsPrinted, "law_squared", "80.0", "70.0"),
     ("chss", AsPrinted, "law_squared", "80.0 * ratio * ratio", "80.0 * ratio"),
@@ -84,7 +84,7 @@ const LAWS: &[Plant] = &[
 
 const BIASES: &[Plant] = &[
     ("hard", AsPrinted, "bias_constant", "- CONSTANT_BIAS_WORLD", ""),
-    ("pcf-vogel-16", LightMatched, "bias_receiver_plane", "plane_depth(s, offset_uv)", "s.depth"),
+    ("pcf-vogel-16", LightMatched, "bias_receiver_plane", "plane_quad(s, first, step)", "vec4(s.depth)"),
     ("chss-mask", LightMatched, "surface", "vec2<f32>(pixel) + 0.5", "vec2<f32>(pixel)"),
 ];
 

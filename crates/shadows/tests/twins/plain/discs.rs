@@ -63,10 +63,11 @@ fn one(plain: &Plain<'_>, name: &str, spot: &Spot) -> Option<f64> {
             let label = if name.contains("-raw-") { "penumbra-mask" } else { "penumbra-mask-blurred" };
             let radius = fetched(plain.channel(label, 0, 0), spot.place.map(|c| c / 4.0));
             let texels = radius * plain.side();
-            // One tap below half a texel, four below one.
+            // One tap below half a texel, four below one, eight below two.
             let taps = match name {
                 "chss-mask-few-taps" if texels < 0.5 => 1,
                 "chss-mask-few-taps" if texels < 1.0 => 4,
+                "chss-mask-few-taps" if texels < 2.0 => 8,
                 _ => 16,
             };
             let radius = if taps == 1 { 0.0 } else { radius };

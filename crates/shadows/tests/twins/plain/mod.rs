@@ -5,9 +5,9 @@
 pub(crate) mod cube;
 pub(crate) mod deep;
 pub(crate) mod discs;
+pub(crate) mod fewer;
 pub(crate) mod moments;
 pub(crate) mod separable;
-pub(crate) mod fewer;
 pub(crate) mod tables;
 
 use super::approx::{Approx, Approx3};
