@@ -14,7 +14,7 @@ const USAGE: &str = "cargo xtask COMMAND
   test             the same driver check, then all tests
   ci               formatting, lints, layers, duplicate versions, documentation, all tests
   layers           check the dependency invariants of ARCHITECTURE.md
-  figures          render the README's pictures again
+  figures          render the pictures of README and docs/techniques.md again
   bless            renew committed goldens (the scorecard's schema and shape)";
 
 fn main() -> ExitCode {

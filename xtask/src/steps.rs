@@ -57,18 +57,57 @@ const FIGURES: [(&str, &str); 7] = [
     ("window-00-variant-01-swim.png", "chss-min-swim.png"),
 ];
 
-/// Renders the README's pictures again.
+/// Renders the pictures of the README and of docs/techniques.md again.
 pub(crate) fn figures() -> Outcome {
     let variants = ["--variant", "chss-mask/light-matched", "--variant", "chss-min/light-matched"];
     let run =
         ["colonnade", "--path", "P4", "--size", "480x270", "--report", "dir", "--out", "reports/out/figures"];
     evaluate(&run.into_iter().chain(variants).map(str::to_string).collect::<Vec<_>>())?;
-    std::fs::create_dir_all("reports/figures").map_err(|e| format!("reports/figures: {e}"))?;
     for (from, to) in FIGURES {
-        let (from, to) = (format!("reports/out/figures/index_files/{from}"), format!("reports/figures/{to}"));
-        std::fs::copy(&from, &to).map_err(|e| format!("{from}: {e}"))?;
+        copy(("reports/out/figures", from), ("reports/figures", to))?;
+    }
+    let all = listed_variants()?;
+    let placed = |(_, line): &&(String, String)| line.contains("lights that have a place");
+    let (rooms, suns): (Vec<_>, Vec<_>) = all.iter().partition(placed);
+    pictures("colonnade", &suns)?;
+    pictures("point-light-room", &rooms)
+}
+
+/// Names of all variants, each with its line of the list.
+fn listed_variants() -> Result<Vec<(String, String)>, String> {
+    let output = Command::new(adapter::program("release")?)
+        .args(["list", "variants"])
+        .output()
+        .map_err(|e| format!("umbrage list variants: {e}"))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let name = |line: &str| Some((line.split_whitespace().next()?.to_string(), line.to_string()));
+    Ok(text.lines().skip(1).filter_map(name).collect())
+}
+
+/// A small picture of each variant, light-matched, and of the truth beside them.
+fn pictures(scene: &str, variants: &[&(String, String)]) -> Outcome {
+    let out = format!("reports/out/techniques-{scene}");
+    let run =
+        [scene, "--path", "P1", "--size", "240x135", "--frames", "2", "--seeds", "2", "--samples", "64"];
+    let mut arguments: Vec<String> = run.map(str::to_string).to_vec();
+    arguments.extend(["--report", "dir", "--out", &out].map(str::to_string));
+    for (name, _) in variants {
+        arguments.extend(["--variant".to_string(), format!("{name}/light-matched")]);
+    }
+    evaluate(&arguments)?;
+    copy((&out, "window-00-truth.png"), ("docs/techniques", &format!("truth-{scene}.png")))?;
+    for (index, (name, _)) in variants.iter().enumerate() {
+        let picture = format!("window-00-variant-{index:02}-shadow.png");
+        copy((&out, &picture), ("docs/techniques", &format!("{name}.png")))?;
     }
     Ok(())
+}
+
+/// A picture of a run to where it is committed.
+fn copy((run, from): (&str, &str), (folder, to): (&str, &str)) -> Outcome {
+    std::fs::create_dir_all(folder).map_err(|e| format!("{folder}: {e}"))?;
+    let (from, to) = (format!("{run}/index_files/{from}"), format!("{folder}/{to}"));
+    std::fs::copy(&from, &to).map(|_| ()).map_err(|e| format!("{from}: {e}"))
 }
 
 /// All tests, documentation examples included.

@@ -7,7 +7,7 @@ use crate::error::CliError;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use umbrage_metrics::{PooledNumber, SumKind};
-use umbrage_shadows::{PROBES, VARIANTS};
+use umbrage_shadows::{Calibration, PROBES, VARIANTS};
 
 /// A way to measure a variant in a window.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -71,7 +71,7 @@ pub(crate) fn cost_needs(
         names.extend(registry.time.iter().map(|row| full_name(&row.ours)));
         let light = place.build()?.lights[0];
         let all = VARIANTS.iter().chain(PROBES).filter(|v| v.technique.lights().contain(&light));
-        names.extend(all.map(|v| full_name(v.name)));
+        names.extend(all.flat_map(|v| Calibration::ALL.map(|c| format!("{}/{}", v.name, c.name()))));
     }
     Ok(needs)
 }

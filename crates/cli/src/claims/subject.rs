@@ -103,8 +103,10 @@ pub(crate) fn full_name(variant: &str) -> String {
 /// The variant of a full name, probes included, where this build has it.
 pub(crate) fn variant_of(full_name: &str) -> Option<VariantId> {
     let probe = || {
-        let variant = PROBES.iter().find(|v| full_name.split('/').next() == Some(v.name))?;
-        Some(VariantId { variant, calibration: Calibration::LightMatched })
+        let (name, calibration) = full_name.split_once('/')?;
+        let variant = PROBES.iter().find(|v| v.name == name)?;
+        let calibration = Calibration::ALL.into_iter().find(|c| c.name() == calibration)?;
+        Some(VariantId { variant, calibration })
     };
     select_variants(full_name).into_iter().next().or_else(probe)
 }
