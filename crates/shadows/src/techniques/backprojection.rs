@@ -56,7 +56,8 @@ impl Technique for Backprojection {
             "{}: the light's disc as seen through a texel",
             calibration.radius_for("the texel's depth")
         );
-        let convention = "radius of the light's cone in the map, of which the texels' squares hide parts";
+        let convention =
+            "radius of the disc of the map that stands for the light, of which texels' squares hide parts";
         Kernels { radius_convention: convention.into(), ..Kernels::hardening(calibration, search, kernel) }
     }
 
