@@ -212,9 +212,16 @@ const PLANTS: &[Plant] = &[
     (
         "checker-chss",
         Calibration::LightMatched,
+        "weight_near",
+        "length(there - position)",
+        "0.1 * length(there - position)",
+    ),
+    (
+        "half-chss-bilateral",
+        Calibration::LightMatched,
         "weight_plane",
-        "dot(r.normal, there - position)",
-        "there.y - position.y",
+        "dot(r.normal, there - r.position)",
+        "there.y - r.position.y",
     ),
     ("half-chss", Calibration::LightMatched, "low_res", "r.place * scale - 0.5", "r.place * scale"),
     ("three-quarter-chss", Calibration::AsPrinted, "low_res", "share * weight(", "share + 0.0 * weight("),
