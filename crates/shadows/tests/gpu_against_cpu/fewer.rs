@@ -1,7 +1,8 @@
 //! Targets with fewer pixels than the frame, a texel at a time: what a texel holds is what `chss`
 //! says of the pixel that it stands for; and last passes that look back to where the camera was.
 
-use crate::case::{Bands, Case, Ran, Reading};
+use crate::bands::Bands;
+use crate::case::{Case, Ran, Reading};
 use crate::support::edited::{Edit, with_edit};
 use crate::support::{still_life, variant_id};
 use crate::twins::plain::{Spot, fewer};
