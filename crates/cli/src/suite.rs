@@ -84,9 +84,8 @@ impl Plan {
         let own = own.map_err(|e| CliError::Usage(format!("the size of suite \"{}\": {e}", file.name)))?;
         let size = args.view.size.or(own.filter(|_| !quick));
         let variants = able(chosen_variants(args, &file)?, &jobs, wants_all(&args.variants))?;
-        if frames == 1 {
-            check_history(&variants)?;
-        }
+        let variants =
+            if frames == 1 { without_history(variants, wants_all(&args.variants))? } else { variants };
         Ok(Self {
             name: if quick { format!("{}-quick", file.name) } else { file.name },
             jobs,
@@ -127,16 +126,18 @@ fn able(variants: Vec<VariantId>, jobs: &[Job], all: bool) -> Result<Vec<Variant
     Ok(variants)
 }
 
-/// One frame says nothing about what comes from the frames before it: its score would pass for that
-/// of a still camera.
-fn check_history(variants: &[VariantId]) -> Result<(), CliError> {
-    let looks_back = |id: &&VariantId| id.variant.technique.history() > 0;
-    let Some(first) = variants.iter().find(looks_back) else { return Ok(()) };
-    let name = first.variant.name;
-    Err(CliError::Usage(format!(
-        "{name} has a history: it needs the frames before it, and one frame gives it no temporal score\n  \
-         help: give --frames 2 or more, or choose others with --variant"
-    )))
+/// Variants that one frame can score: it says nothing about what comes from the frames before it, and
+/// would pass for a still camera. `all` means those; one that was named is refused.
+fn without_history(variants: Vec<VariantId>, all: bool) -> Result<Vec<VariantId>, CliError> {
+    let looks_back = |id: &VariantId| id.variant.technique.history() > 0;
+    match variants.iter().find(|id| looks_back(id)) {
+        Some(first) if !all => Err(CliError::Usage(format!(
+            "{} has a history: it needs the frames before it, and one frame gives it no temporal score\n  \
+             help: give --frames 2 or more, or choose others with --variant",
+            first.variant.name
+        ))),
+        _ => Ok(variants.into_iter().filter(|id| !looks_back(id)).collect()),
+    }
 }
 
 fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {

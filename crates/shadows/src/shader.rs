@@ -117,6 +117,7 @@ shared! {
     FRAME_DEPTH = "frame_depth",
     WEIGHT_NONE = "weight_none",
     WEIGHT_DEPTH = "weight_depth",
+    WEIGHT_NEAR = "weight_near",
     WEIGHT_PLANE = "weight_plane",
     CHECKERBOARD = "checkerboard",
     WHOLE = "whole",

@@ -85,6 +85,16 @@ fn usage_mistakes_exit_2_before_any_work() {
     }
 }
 
+/// A technique that keeps frames has no score in one: refused by name, with the reason and the cure.
+#[test]
+fn one_frame_is_refused_to_a_variant_with_a_history() {
+    for name in ["temporal-checker", "temporal-mask"] {
+        let line = format!("evaluate colonnade --frames 1 --variant hard --variant {name}");
+        let refused = said(&line).ended_with(2).says(name).says("frames before it").says("no temporal score");
+        refused.says("--frames 2");
+    }
+}
+
 #[test]
 fn unknown_names_suggest_the_nearest() {
     let cases = [

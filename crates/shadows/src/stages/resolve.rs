@@ -41,11 +41,12 @@ pub(crate) fn resolve(recording: &mut Recording, inputs: &Inputs<'_>, technique:
 }
 
 impl Calibration {
-    /// Slot `weight`: the demo's difference of depths, or one that oblique floors do not upset.
+    /// Slot `weight` for neighbours of a pixel: the demo's difference of depths, or a distance in
+    /// space.
     pub(crate) fn weight(self) -> Fragment {
         match self {
             Self::AsPrinted => shader::WEIGHT_DEPTH,
-            Self::LightMatched => shader::WEIGHT_PLANE,
+            Self::LightMatched => shader::WEIGHT_NEAR,
         }
     }
 }

@@ -64,7 +64,7 @@ pub(super) fn upsampling(calibration: Calibration) -> &'static str {
              distance), 0 where the weights sum up to less than 1"
         }
         Calibration::LightMatched => {
-            "the other pixels from four neighbours, weighted by 1 / (.001 + distance from the pixel's plane / depth)"
+            "the other pixels from four neighbours, weighted by 1 / (.001 + distance of the surfaces / depth)"
         }
     }
 }

@@ -69,9 +69,11 @@ impl Technique for LowRes {
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>) {
         let grid = Grid::Scaled { numerator: self.numerator, denominator: self.denominator };
         let coarse = shade_target(recording, inputs, grid, CHSS.shading());
-        let weight = match self.upsample {
-            Upsample::Bilinear => shader::WEIGHT_NONE,
-            Upsample::Bilateral => inputs.calibration.weight(),
+        let weight = match (self.upsample, inputs.calibration) {
+            (Upsample::Bilinear, _) => shader::WEIGHT_NONE,
+            (_, Calibration::AsPrinted) => shader::WEIGHT_DEPTH,
+            // Bilinear shares know the distance along a surface already.
+            (_, Calibration::LightMatched) => shader::WEIGHT_PLANE,
         };
         let mut constants = grid.constants();
         constants.push(("DEPTH_BITS", 32.0));

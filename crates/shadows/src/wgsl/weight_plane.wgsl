@@ -7,10 +7,7 @@ fn weight(r: Receiver, pixel: vec2<i32>) -> f32 {
     if depth <= 0.0 {
         return 0.0;
     }
-    let eye = globals.world_from_camera[3].xyz;
     let own = view_depth(r.position);
-    // The receiver itself where its kept depth puts it.
-    let position = eye + (r.position - eye) * (kept_depth(own) / own);
     let there = unprojected(globals.world_from_camera, globals.half_extent, pixel, depth);
-    return 1.0 / (0.001 + abs(dot(r.normal, there - position)) / own);
+    return 1.0 / (0.001 + abs(dot(r.normal, there - r.position)) / own);
 }

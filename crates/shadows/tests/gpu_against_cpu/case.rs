@@ -1,5 +1,6 @@
 //! One run of a variant on the adapter, and its comparison with the twin.
 
+use crate::bands::Bands;
 use crate::support::{self, still_life};
 use crate::twins::light::Light;
 use crate::twins::pattern::Pattern;
@@ -47,70 +48,9 @@ pub(crate) enum Reading {
     Anchors,
 }
 
-/// The comparison of many results with bands of plain answers.
-#[derive(Debug, Default)]
-pub(crate) struct Bands {
-    pub(crate) compared: usize,
-    /// Results that the receiver's own answer does not hold.
-    pub(crate) wide: usize,
-    /// Results outside of their bands.
-    pub(crate) outside: Vec<String>,
-}
-
 /// One in four at irregular places: enough, and fast.
 fn is_compared(index: usize) -> bool {
     (index as u32).wrapping_mul(0x9e37_79b9) >> 30 == 0
-}
-
-/// What single precision may add to a mean of weighted comparisons beyond the receiver's place: a
-/// weight of a bilinear tap is known to 1e-4 (a place of 500 texels to 6e-5), the rest to 1e-6.
-const TOLERANCE: f64 = 5e-4;
-
-/// Whether a result lies between answers; counts it if not.
-fn within(value: f32, answers: &[f64], misses: &mut usize) -> bool {
-    let low = answers.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = answers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let inside = (low - TOLERANCE..=high + TOLERANCE).contains(&f64::from(value));
-    *misses += usize::from(!inside);
-    inside
-}
-
-impl Bands {
-    /// A result against what a twin says of its receiver and of those round it.
-    pub(crate) fn compare(&mut self, value: f32, spot: &Spot, twin: impl Fn(&Spot) -> Vec<f64>) {
-        let mut answers = twin(spot);
-        // Most need no second question.
-        if !within(value, &answers, &mut self.wide) {
-            answers.extend(spot.jittered().iter().flat_map(twin));
-        }
-        self.add(value, &answers);
-    }
-
-    fn add(&mut self, value: f32, answers: &[f64]) {
-        self.compared += 1;
-        let low = answers.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = answers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let inside = (low - TOLERANCE..=high + TOLERANCE).contains(&f64::from(value));
-        if !inside || value.is_nan() {
-            self.outside.push(format!("{value} is not in {low}..{high}"));
-        }
-    }
-
-    /// Fails where more results lie outside of their bands than unlucky roundings make: a band of
-    /// eleven answers does not hold every outcome of a comparison at a blocker's border. Limits are
-    /// shares of all results.
-    pub(crate) fn check(&self, what: &str, [most_outside, most_wide]: [f64; 2]) {
-        let share = |n: usize| n as f64 / self.compared as f64;
-        let some: Vec<_> = self.outside.iter().take(5).collect();
-        assert!(self.compared > 800, "{what}: only {} compared", self.compared);
-        assert!(
-            share(self.outside.len()) <= most_outside,
-            "{what}: {} of {} are outside: {some:#?}",
-            self.outside.len(),
-            self.compared
-        );
-        assert!(share(self.wide) <= most_wide, "{what}: {:.3} needed a band", share(self.wide));
-    }
 }
 
 /// The comparison of many results.

@@ -1,7 +1,8 @@
 //! Targets with fewer pixels than the frame, a texel at a time: what a texel holds is what `chss`
 //! says of the pixel that it stands for; and last passes that look back to where the camera was.
 
-use crate::case::{Bands, Case, Ran, Reading};
+use crate::bands::Bands;
+use crate::case::{Case, Ran, Reading};
 use crate::support::edited::{Edit, with_edit};
 use crate::support::{still_life, variant_id};
 use crate::twins::plain::{Spot, fewer};
@@ -212,9 +213,16 @@ const PLANTS: &[Plant] = &[
     (
         "checker-chss",
         Calibration::LightMatched,
+        "weight_near",
+        "length(there - position)",
+        "0.1 * length(there - position)",
+    ),
+    (
+        "half-chss-bilateral",
+        Calibration::LightMatched,
         "weight_plane",
-        "dot(r.normal, there - position)",
-        "there.y - position.y",
+        "dot(r.normal, there - r.position)",
+        "there.y - r.position.y",
     ),
     ("half-chss", Calibration::LightMatched, "low_res", "r.place * scale - 0.5", "r.place * scale"),
     ("three-quarter-chss", Calibration::AsPrinted, "low_res", "share * weight(", "share + 0.0 * weight("),

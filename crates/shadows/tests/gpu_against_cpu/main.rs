@@ -11,6 +11,7 @@ mod support;
 #[path = "../twins/mod.rs"]
 mod twins;
 
+mod bands;
 mod case;
 mod deep;
 mod fewer;

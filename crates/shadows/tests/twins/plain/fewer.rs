@@ -11,14 +11,11 @@ pub(crate) fn shade(plain: &Plain<'_>, name: &str, spot: &Spot) -> Option<Vec<f6
     let pixel = spot.place.map(|c| c.floor() as i64);
     Some(match name {
         "whole-chss" => vec![at(plain.channel("lit-whole", 0, 0), pixel)],
-        "checker-chss-16bit" => {
-            // A driver may round to the nearest half float or towards 0.
-            [half_nearest as fn(f64) -> f64, half_below].map(|kept| checker(plain, spot, kept)).to_vec()
-        }
+        "checker-chss-16bit" => vec![checker(plain, spot, half_float)],
         _ if name.starts_with("checker-") => vec![checker(plain, spot, |z| z)],
         "half-chss" => vec![smaller(plain, spot, 0.5, |_| 1.0)],
-        "half-chss-bilateral" => vec![smaller(plain, spot, 0.5, |p| weight(plain, spot, p, &|z| z))],
-        "three-quarter-chss" => vec![smaller(plain, spot, 0.75, |p| weight(plain, spot, p, &|z| z))],
+        "half-chss-bilateral" => vec![smaller(plain, spot, 0.5, |p| coarse_weight(plain, spot, p))],
+        "three-quarter-chss" => vec![smaller(plain, spot, 0.75, |p| coarse_weight(plain, spot, p))],
         "temporal-checker" => vec![temporal(plain, spot)],
         "temporal-mask" => {
             let radius = fetched(plain.channel("penumbra-mask-blurred", 0, 0), spot.place);
@@ -54,17 +51,13 @@ fn is_inside(view: &View, [x, y]: [i64; 2]) -> bool {
     (0..i64::from(view.width)).contains(&x) && (0..i64::from(view.height)).contains(&y)
 }
 
-/// Half floats keep eleven bits.
-fn half_ulp(z: f64) -> f64 {
-    2f64.powi(z.abs().log2().floor() as i32 - 10)
-}
-
-fn half_nearest(z: f64) -> f64 {
-    if z > 0.0 { (z / half_ulp(z)).round_ties_even() * half_ulp(z) } else { 0.0 }
-}
-
-fn half_below(z: f64) -> f64 {
-    if z > 0.0 { (z / half_ulp(z)).floor() * half_ulp(z) } else { 0.0 }
+/// The nearest half float: eleven bits.
+fn half_float(z: f64) -> f64 {
+    if z <= 0.0 {
+        return 0.0;
+    }
+    let ulp = 2f64.powi(z.log2().floor() as i32 - 10);
+    (z / ulp).round_ties_even() * ulp
 }
 
 /// Depth along the viewing direction.
@@ -81,24 +74,39 @@ fn seen_at(view: &View, pixel: [i64; 2], depth: f64) -> DVec3 {
     view.camera_from_world.as_dmat4().inverse().transform_point3(ray * depth)
 }
 
-/// How far a pixel of the frame speaks for a receiver. As printed: the demo's difference of depths,
-/// in 1/500 of the light's distance. Otherwise the distance from the receiver's plane over depth.
+/// The weight of a difference.
+fn of_apart(apart: f64) -> f64 {
+    1.0 / (0.001 + apart)
+}
+
+/// How far a neighbour speaks for a receiver. As printed: the demo's difference of depths, in 1/500 of
+/// the light's distance. Otherwise the distance of the two in space over depth. 0 for the sky.
 fn weight(plain: &Plain<'_>, spot: &Spot, pixel: [i64; 2], kept: &dyn Fn(f64) -> f64) -> f64 {
     let view = &plain.views[0];
     let depth = kept(at(plain.channel("camera-depth", 0, 0), pixel));
-    if depth <= 0.0 {
-        return 0.0;
-    }
     let own = depth_in(view, spot.position);
-    let apart = match plain.calibration {
+    let eye = view.camera_from_world.as_dmat4().inverse().w_axis.truncate();
+    let moved = eye + (spot.position - eye) * (kept(own) / own);
+    of_apart(match plain.calibration {
+        _ if depth <= 0.0 => f64::INFINITY,
         Calibration::AsPrinted => (depth - kept(own)).abs() / (plain.light.eye_distance.value / 500.0),
-        Calibration::LightMatched => {
-            let eye = view.camera_from_world.as_dmat4().inverse().w_axis.truncate();
-            let moved = eye + (spot.position - eye) * (kept(own) / own);
-            spot.normal.dot(seen_at(view, pixel, depth) - moved).abs() / own
-        }
-    };
-    1.0 / (0.001 + apart)
+        Calibration::LightMatched => seen_at(view, pixel, depth).distance(moved) / own,
+    })
+}
+
+/// The same from the distance to the receiver's plane.
+fn plane_weight(plain: &Plain<'_>, spot: &Spot, pixel: [i64; 2]) -> f64 {
+    let (view, depth) = (&plain.views[0], at(plain.channel("camera-depth", 0, 0), pixel));
+    let apart = spot.normal.dot(seen_at(view, pixel, depth) - spot.position).abs();
+    of_apart(if depth > 0.0 { apart / depth_in(view, spot.position) } else { f64::INFINITY })
+}
+
+/// That of a texel of a smaller target.
+fn coarse_weight(plain: &Plain<'_>, spot: &Spot, pixel: [i64; 2]) -> f64 {
+    match plain.calibration {
+        Calibration::AsPrinted => weight(plain, spot, pixel, &|z| z),
+        Calibration::LightMatched => plane_weight(plain, spot, pixel),
+    }
 }
 
 /// A pixel that was left out: the weighted mean of its neighbours; as printed 0 below a sum of 1.
@@ -235,12 +243,11 @@ fn columns(plain: &Plain<'_>, spot: &Spot) -> f64 {
 
 /// The mean of taps, each times what its pixel says for the receiver's plane.
 fn blurred(plain: &Plain<'_>, spot: &Spot, (label, taps): (&str, &[([i64; 2], f64)])) -> f64 {
-    let plane = Plain { calibration: Calibration::LightMatched, views: plain.views.clone(), ..*plain };
     let image = plain.channel(label, 0, 0);
     let inside = taps.iter().filter(|(p, share)| *share > 0.0 && is_inside(&plain.views[0], *p));
     let (mut sum, mut total) = (0.0, 0.0);
     for &(pixel, share) in inside {
-        let weight = share * weight(&plane, spot, pixel, &|z| z);
+        let weight = share * plane_weight(plain, spot, pixel);
         sum += weight * at(image, pixel);
         total += weight;
     }
