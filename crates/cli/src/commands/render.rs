@@ -35,7 +35,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
             write_exr(&file, &[("visibility.V".to_string(), mask)])?;
             print(&file.display().to_string())?;
             for dump in &dumps {
-                let file = args.out.join(format!("{stem}.{}.exr", dump.label));
+                // Levels below the finest have names of their own.
+                let level = if dump.level > 0 { format!(".level{}", dump.level) } else { String::new() };
+                let file = args.out.join(format!("{stem}.{}{level}.exr", dump.label));
                 write_exr(&file, &layers(dump))?;
                 print(&file.display().to_string())?;
             }

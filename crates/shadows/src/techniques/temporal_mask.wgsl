@@ -23,9 +23,14 @@ fn temporal_mask(@builtin(global_invocation_id) id: vec3<u32>) {
         let s = shadow_point(r.position, r.normal);
         let largest = search_radius_uv(s.depth);
         let angle = TAU * pattern(r.place, r.position);
-        let blocker = mean_blocker(s, SEARCH_SCALE * largest, angle);
-        if blocker >= 0.0 {
-            radius = kernel_radius_uv(s.depth, blocker);
+        // In the order in which the threads of `penumbra_mask` share the taps, so that both masks are
+        // the same to the bit.
+        var tally = vec2(0.0);
+        for (var share = 0u; share < 4u; share++) {
+            tally += tally_part(s, SEARCH_SCALE * largest, turn_of(angle), share, 4u);
+        }
+        if tally.y > 0.0 {
+            radius = kernel_radius_uv(s.depth, tally.x / tally.y);
         }
         if MASK_LEVELS > 0.0 {
             let stored = round(radius / max(largest, 1e-20) * MASK_LEVELS);
