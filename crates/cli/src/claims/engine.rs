@@ -108,7 +108,9 @@ impl Run<'_> {
         // From the middle of the path, as in evaluations.
         let first = (path.frames.len() as u32 - count) / 2;
         let frames = &path.frames[first as usize..(first + count) as usize];
-        let request = Request { scene, path, first, frames, readings: Readings::Anchored };
+        let reads_pixels = variants.values().flatten().any(Measure::reads_pixels);
+        let readings = if reads_pixels { Readings::Both } else { Readings::Anchored };
+        let request = Request { scene, path, first, frames, readings };
         let window = Window::new(&request, (tracer, &self.truths, renderer), &self.settings.sampling)?;
         if window.disagreement() > DISAGREEMENT_LIMIT {
             self.refuse(place, "truth and raster see different surfaces", variants);
@@ -166,6 +168,8 @@ impl Run<'_> {
                     (Measure::Scores, _) => ways::scores(window, (variant, renderer), sampling)?,
                     (Measure::Values, _) => ways::values(window, (variant, renderer), sampling)?,
                     (Measure::Frozen, _) => ways::frozen(window, (variant, renderer))?,
+                    (Measure::Pixels, _) => ways::pixels(window, (variant, renderer), sampling)?,
+                    (Measure::FrozenPixels, _) => ways::frozen_pixels(window, (variant, renderer))?,
                     (Measure::Against(_), other) => {
                         ways::against(window, (variant, other.unwrap_or(variant)), (renderer, sampling))?
                     }

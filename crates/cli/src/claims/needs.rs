@@ -16,6 +16,10 @@ pub(crate) enum Measure {
     Scores,
     /// One pattern frozen to the screen.
     Frozen,
+    /// Patterns drawn afresh, read at the nearest pixel of whole frames.
+    Pixels,
+    /// One pattern frozen to the screen, read so.
+    FrozenPixels,
     /// Beside another variant, by its full name.
     Against(String),
     /// The plain values, of a probe.
@@ -26,10 +30,17 @@ pub(crate) enum Measure {
 pub(crate) type Needs = BTreeMap<Place, BTreeMap<String, BTreeSet<Measure>>>;
 
 impl Measure {
+    /// Whether it needs the truth of each frame's own pixels.
+    pub(crate) fn reads_pixels(&self) -> bool {
+        matches!(self, Self::Pixels | Self::FrozenPixels)
+    }
+
     /// What a part's number is made from.
     pub(crate) fn of(number: PooledNumber, part: &Part) -> Self {
         match number.kind() {
             SumKind::Frozen => Self::Frozen,
+            SumKind::Pixels => Self::Pixels,
+            SumKind::FrozenPixels => Self::FrozenPixels,
             SumKind::Against => Self::Against(full_name(part.against.as_deref().unwrap_or("hard"))),
             SumKind::Values => Self::Values,
             _ => Self::Scores,

@@ -30,11 +30,39 @@ pub(super) fn facts(window: &Window) -> PlaceFacts {
 fn fresh(
     window: &Window,
     (variant, renderer): (VariantId, &mut Renderer<'_>),
-    sampling: &Sampling,
+    (reading, sampling): (Reading, &Sampling),
 ) -> Result<Panel, CliError> {
     let seeds = if variant.info().stochastic { sampling.seeds } else { 1 };
     let draw = Draw { seeding: Seeding::Fresh, seeds, frames: window.frames.len() };
-    shade_panel(window, (variant, renderer), Reading::Anchored, draw)
+    shade_panel(window, (variant, renderer), reading, draw)
+}
+
+/// What an eye sees of patterns drawn afresh: whole frames, each point at its nearest pixel.
+pub(super) fn pixels(
+    window: &Window,
+    (variant, renderer): (VariantId, &mut Renderer<'_>),
+    sampling: &Sampling,
+) -> Result<Unit, CliError> {
+    let panel = fresh(window, (variant, renderer), (Reading::Pixels, sampling))?;
+    in_pixels(window, &panel, SumKind::Pixels)
+}
+
+/// The same of one pattern, frame after frame.
+pub(super) fn frozen_pixels(
+    window: &Window,
+    (variant, renderer): (VariantId, &mut Renderer<'_>),
+) -> Result<Unit, CliError> {
+    let draw = Draw { seeding: Seeding::Frozen, seeds: 1, frames: window.frames.len() };
+    let panel = shade_panel(window, (variant, renderer), Reading::Pixels, draw)?;
+    in_pixels(window, &panel, SumKind::FrozenPixels)
+}
+
+/// Against the truth of each frame's own pixels; that of the anchors for a window of one frame, where
+/// both are the same.
+fn in_pixels(window: &Window, panel: &Panel, kind: SumKind) -> Result<Unit, CliError> {
+    let truth = window.pixel_truth.as_ref().unwrap_or(&window.truth);
+    let table = window_tiles(panel, truth, &window.tiling)?.sum_table();
+    Ok(Unit { tables: BTreeMap::from([(kind, table)]), mask: vec![] })
 }
 
 /// Everything that follows from patterns drawn afresh, and the middle frame as a game would show it.
@@ -43,7 +71,7 @@ pub(super) fn scores(
     (variant, renderer): (VariantId, &mut Renderer<'_>),
     sampling: &Sampling,
 ) -> Result<Unit, CliError> {
-    let panel = fresh(window, (variant, renderer), sampling)?;
+    let panel = fresh(window, (variant, renderer), (Reading::Anchored, sampling))?;
     let (truth, tiling, anchors) = (&window.truth, &window.tiling, &window.anchors);
     let maps = point_maps(&panel, truth, tiling)?;
     let tables = BTreeMap::from([
@@ -53,6 +81,7 @@ pub(super) fn scores(
         (SumKind::Widths, width_sums((&panel, &maps), truth, anchors, tiling)?),
     ]);
     let shipped = (Seeding::Frozen, [window.first + window.middle() as u32, 0]);
+    renderer.set_past(window.past(window.middle()));
     let values = renderer.shade_frame(variant, window.middle_frame(), shipped)?.values;
     let mask = values.iter().map(|v| (255.0 * v.clamp(0.0, 1.0)).round() as u8).collect();
     Ok(Unit { tables, mask })
@@ -75,7 +104,7 @@ pub(super) fn values(
     (variant, renderer): (VariantId, &mut Renderer<'_>),
     sampling: &Sampling,
 ) -> Result<Unit, CliError> {
-    let table = value_sums(&fresh(window, (variant, renderer), sampling)?, &window.tiling)?;
+    let table = value_sums(&fresh(window, (variant, renderer), (Reading::Anchored, sampling))?, &window.tiling)?;
     Ok(Unit { tables: BTreeMap::from([(SumKind::Values, table)]), mask: vec![] })
 }
 
@@ -85,8 +114,8 @@ pub(super) fn against(
     (variant, other): (VariantId, VariantId),
     (renderer, sampling): (&mut Renderer<'_>, &Sampling),
 ) -> Result<Unit, CliError> {
-    let panel = fresh(window, (variant, renderer), sampling)?;
-    let other = fresh(window, (other, renderer), sampling)?;
+    let panel = fresh(window, (variant, renderer), (Reading::Anchored, sampling))?;
+    let other = fresh(window, (other, renderer), (Reading::Anchored, sampling))?;
     let table = against_sums(&panel, &other, &window.tiling)?;
     Ok(Unit { tables: BTreeMap::from([(SumKind::Against, table)]), mask: vec![] })
 }

@@ -33,6 +33,10 @@ pub enum SumKind {
     Cells,
     /// The same of one pattern frozen to the screen.
     Frozen,
+    /// The cells of the pixel reading: each point as the nearest pixel of a whole frame shows it.
+    Pixels,
+    /// The same of one pattern frozen to the screen.
+    FrozenPixels,
     /// The shape of the penumbra: [`ProfileTable::sum_table`].
     Profile,
     /// Means over 4x4 px: [`block_sums`].
@@ -50,8 +54,12 @@ pub enum SumKind {
 pub enum PooledNumber {
     /// One of the scorecard's quantities.
     Cell(Quantity),
+    /// The same of the pixel reading: its SWIMMING includes the crawl of edges over pixels.
+    InPixels(Quantity),
     /// SWIMMING of a frozen pattern: the variance over time at a fixed surface point.
     Flicker,
+    /// The same of the pixel reading.
+    FlickerInPixels,
     /// 10-90 % width over the true one.
     WidthRatio,
     /// Its spread over the direction of the edge.
@@ -81,7 +89,11 @@ pub enum PooledNumber {
 }
 
 /// The numbers that are no [`Quantity`], with their names.
-const NAMED: [(&str, PooledNumber); 14] = [
+const NAMED: [(&str, PooledNumber); 18] = [
+    ("error_in_pixels", PooledNumber::InPixels(Quantity::Error)),
+    ("swimming_in_pixels", PooledNumber::InPixels(Quantity::Swimming)),
+    ("noise_in_pixels", PooledNumber::InPixels(Quantity::Noise)),
+    ("flicker_in_pixels", PooledNumber::FlickerInPixels),
     ("flicker", PooledNumber::Flicker),
     ("width_ratio", PooledNumber::WidthRatio),
     ("width_anisotropy", PooledNumber::WidthAnisotropy),
@@ -114,7 +126,9 @@ impl PooledNumber {
     pub fn kind(self) -> SumKind {
         match self {
             Self::Cell(_) => SumKind::Cells,
+            Self::InPixels(_) => SumKind::Pixels,
             Self::Flicker => SumKind::Frozen,
+            Self::FlickerInPixels => SumKind::FrozenPixels,
             Self::WidthRatio | Self::WidthAnisotropy | Self::EffectiveLevels | Self::PlateauFraction => {
                 SumKind::Profile
             }
@@ -131,8 +145,8 @@ impl PooledNumber {
     fn is_seen(self, sums: &[f64]) -> bool {
         let any = |slots: &[usize]| slots.iter().any(|&s| sums[s] > 0.0);
         match self {
-            Self::Cell(quantity) => any(quantity.seen_by()),
-            Self::Flicker => any(Quantity::Swimming.seen_by()),
+            Self::Cell(quantity) | Self::InPixels(quantity) => any(quantity.seen_by()),
+            Self::Flicker | Self::FlickerInPixels => any(Quantity::Swimming.seen_by()),
             _ if self.kind() == SumKind::Profile => any(&PROFILE_SUMS),
             Self::BlockError | Self::BlockNoise => any(&[blocks::COUNT]),
             Self::SignedError => any(&[widths::POINTS]),
@@ -150,8 +164,8 @@ impl PooledNumber {
             values.iter().sum::<f64>() / values.len() as f64
         };
         match self {
-            Self::Cell(quantity) => quantity.value(windows),
-            Self::Flicker => Quantity::Swimming.value(windows),
+            Self::Cell(quantity) | Self::InPixels(quantity) => quantity.value(windows),
+            Self::Flicker | Self::FlickerInPixels => Quantity::Swimming.value(windows),
             Self::WidthRatio => profile_values(windows, seen)[0],
             Self::WidthAnisotropy => profile_values(windows, seen)[1],
             Self::EffectiveLevels => profile_values(windows, seen)[2],
