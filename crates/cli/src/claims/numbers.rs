@@ -32,7 +32,7 @@ impl Judge<'_> {
         comparison: &Comparison,
     ) -> Result<Result<Numbers, Gap>, CliError> {
         let layout = Layout::of(comparison, part.target.unwrap_or(1.0));
-        let members: Vec<&MemberAt> = comparison.subjects().into_iter().flat_map(|s| &s.members).collect();
+        let members: Vec<MemberAt> = comparison.subjects().into_iter().flat_map(Resolved::readings).collect();
         let scores = if COSTS.contains(&part.number.as_str()) {
             self.cost_scores(part, &members, &layout)
         } else {
@@ -41,7 +41,7 @@ impl Judge<'_> {
         Ok(scores.map(|s| Numbers { ratio: s[0], difference: s[1], a: s[2], b: s[3] }))
     }
 
-    fn cost_scores(&self, part: &Part, members: &[&MemberAt], layout: &Layout) -> Result<Vec<Score>, Gap> {
+    fn cost_scores(&self, part: &Part, members: &[MemberAt], layout: &Layout) -> Result<Vec<Score>, Gap> {
         if self.costs.origin().is_none() {
             return Err(Gap::NeedsGpu);
         }
@@ -63,7 +63,7 @@ impl Judge<'_> {
     fn pooled_scores(
         &self,
         part: &Part,
-        members: &[&MemberAt],
+        members: &[MemberAt],
         layout: &Layout,
     ) -> Result<Result<Vec<Score>, Gap>, CliError> {
         let Some(number) = PooledNumber::named(&part.number) else {
@@ -108,56 +108,86 @@ impl Numbers {
 
 /// Which values belong to which subject, in the order of [`Comparison::subjects`].
 struct Layout {
-    a: (Range<usize>, Take),
-    b: Result<(Range<usize>, Take), f64>,
-    from: Option<(Range<usize>, Take)>,
-    per: Option<[(Range<usize>, Take); 2]>,
+    a: Reading,
+    b: Result<Reading, f64>,
+    from: Option<Reading>,
+    per: Option<[Reading; 2]>,
     target: f64,
+}
+
+/// The values of a subject, and how they become one.
+struct Reading {
+    values: Range<usize>,
+    take: Take,
+    members: usize,
 }
 
 impl Layout {
     fn of(comparison: &Comparison, target: f64) -> Self {
         let mut next = 0;
-        let mut take = |subject: &Resolved| {
+        let mut read = |subject: &Resolved| {
             let start = next;
-            next += subject.members.len();
-            (start..next, subject.take)
+            next += subject.readings().len();
+            Reading { values: start..next, take: subject.take, members: subject.members.len() }
         };
-        let a = take(&comparison.a);
+        let a = read(&comparison.a);
         let b = match &comparison.b {
             ResolvedOther::Constant(value) => Err(*value),
-            ResolvedOther::Subject(b) => Ok(take(b)),
+            ResolvedOther::Subject(b) => Ok(read(b)),
         };
-        let from = comparison.from.as_ref().map(&mut take);
-        let per = comparison.per.as_ref().map(|[a, b]| [take(a), take(b)]);
+        let from = comparison.from.as_ref().map(&mut read);
+        let per = comparison.per.as_ref().map(|[a, b]| [read(a), read(b)]);
         Self { a, b, from, per, target }
     }
 
     /// A / B - 1, A - B, A and B.
     fn effects(&self, values: &[f64]) -> Vec<f64> {
-        let of = |(range, take): &(Range<usize>, Take)| take.of(&values[range.clone()]);
-        let mut a = of(&self.a);
+        let mut a = self.a.number(values);
         let mut b = match &self.b {
-            Ok(subject) => of(subject),
+            Ok(subject) => subject.number(values),
             Err(constant) => *constant,
         };
         if let Some(from) = &self.from {
-            (a, b) = (a - of(from), b - of(from));
+            (a, b) = (a - from.number(values), b - from.number(values));
         }
         if let Some([per_a, per_b]) = &self.per {
-            (a, b) = (a / of(per_a), b / of(per_b));
+            (a, b) = (a / per_a.number(values), b / per_b.number(values));
         }
         vec![a / (b * self.target) - 1.0, a - b, a, b]
     }
 }
 
-impl Take {
-    fn of(self, values: &[f64]) -> f64 {
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        match self {
-            Self::Only | Self::Least => least,
-            Self::Spread => most - least,
+impl Reading {
+    fn number(&self, values: &[f64]) -> f64 {
+        let values = &values[self.values.clone()];
+        match self.take {
+            Take::Only | Take::Least => values.iter().copied().fold(f64::INFINITY, f64::min),
+            Take::Spread => mean_spread(values, values.len() / self.members.max(1)),
         }
+    }
+}
+
+/// Values lie member by member, each with its places: largest less smallest member in each place, mean
+/// over places.
+fn mean_spread(values: &[f64], places: usize) -> f64 {
+    let spread = |place: usize| {
+        let of_members = values.iter().skip(place).step_by(places);
+        let (low, high) =
+            of_members.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
+        high - low
+    };
+    (0..places).map(spread).sum::<f64>() / places as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_of_opposite_sign_in_two_places_do_not_cancel() {
+        // Three members in two places: the first falls from 1.2 to 1.0, the second rises from .8 to 1.0.
+        let spread = mean_spread(&[1.2, 0.8, 1.1, 0.9, 1.0, 1.0], 2);
+        assert!((spread - 0.2).abs() < 1e-12, "{spread}");
+        assert_eq!(mean_spread(&[3.0, 1.0, 2.0], 1), 2.0);
     }
 }

@@ -123,7 +123,7 @@ pub(crate) enum Take {
     #[default]
     Only,
     Least,
-    /// Largest less smallest.
+    /// Largest less smallest, in each place; then the mean over places.
     Spread,
 }
 

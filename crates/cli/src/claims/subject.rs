@@ -37,6 +37,21 @@ pub(crate) struct Comparison {
     pub(crate) per: Option<[Resolved; 2]>,
 }
 
+impl Resolved {
+    /// What is read to make the one number: each member over all its places; for a spread each member
+    /// in each place, so that changes of opposite sign in two places do not cancel.
+    pub(super) fn readings(&self) -> Vec<MemberAt> {
+        if self.take != Take::Spread {
+            return self.members.clone();
+        }
+        let alone = |member: &MemberAt, place: &Place| MemberAt {
+            variant: member.variant.clone(),
+            places: vec![place.clone()],
+        };
+        self.members.iter().flat_map(|m| m.places.iter().map(move |p| alone(m, p))).collect()
+    }
+}
+
 impl Comparison {
     /// `None` for an exact number, which has no subject.
     pub(crate) fn of(part: &Part, registry: &Registry) -> Result<Option<Self>, String> {

@@ -104,7 +104,8 @@ pub(super) fn values(
     (variant, renderer): (VariantId, &mut Renderer<'_>),
     sampling: &Sampling,
 ) -> Result<Unit, CliError> {
-    let table = value_sums(&fresh(window, (variant, renderer), (Reading::Anchored, sampling))?, &window.tiling)?;
+    let table =
+        value_sums(&fresh(window, (variant, renderer), (Reading::Anchored, sampling))?, &window.tiling)?;
     Ok(Unit { tables: BTreeMap::from([(SumKind::Values, table)]), mask: vec![] })
 }
 
