@@ -246,7 +246,8 @@ pub(crate) fn variants_of(names: &[String]) -> Result<Vec<VariantId>, CliError> 
             let candidates = known.iter().map(String::as_str).chain(VARIANTS.iter().map(|v| v.name));
             let hint =
                 suggest(name, candidates).map(|s| format!("; did you mean \"{s}\"?")).unwrap_or_default();
-            let message = format!("unknown variant \"{name}\"{hint} `umbrage list variants` shows all");
+            let message =
+                format!("unknown variant \"{name}\"{hint}\n  help: `umbrage list variants` shows all");
             return Err(CliError::Usage(message));
         }
         wanted.extend(found.iter().map(VariantId::name));

@@ -61,7 +61,7 @@ fn kernel(name: &'static str, count: usize) -> Fragment {
     let source = format!(
         "// Slot `kernel_tap`: {count} blue-noise points, made by `blue_noise.rs`. Unit radius.\n\
          fn kernel_tap(i: u32, count: u32, turn: vec2<f32>) -> vec2<f32> {{\n    \
-         return turned(BLUE[i], turn);\n}}\n\nconst BLUE = array<vec2<f32>, {count}>(\n{});\n",
+         return turned(BLUE[i], turn);\n}}\n\nvar<private> BLUE: array<vec2<f32>, {count}> = array<vec2<f32>, {count}>(\n{});\n",
         points.collect::<String>()
     );
     Fragment { name: name.into(), source: source.into() }

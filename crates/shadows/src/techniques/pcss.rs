@@ -34,6 +34,16 @@ pub(crate) struct Pcss {
 pub(crate) const MENDED: Pcss =
     Pcss { law: Law::Standard, mean: Mean::Blockers, projection: Projection::Single };
 
+impl Pcss {
+    /// The document's own law as printed is the linear one; light-matched it is the true light's cone.
+    fn law_in(&self, calibration: Calibration) -> Law {
+        match (self.law, calibration) {
+            (Law::Standard, Calibration::AsPrinted) => Law::Linear,
+            (law, _) => law,
+        }
+    }
+}
+
 impl Technique for Pcss {
     fn info(&self) -> Info {
         Info {
@@ -61,7 +71,7 @@ impl Technique for Pcss {
             return Kernels { cap: "none".into(), ..Kernels::hardening(calibration, search, kernel) };
         }
         let search = format!("{} x 1.0", calibration.largest_radius());
-        let law = if self.law == Law::Point { Law::Standard } else { self.law };
+        let law = if self.law == Law::Point { Law::Standard } else { self.law_in(calibration) };
         let kernel = format!("{}; without a blocker lit", law.kernel(calibration, mean));
         Kernels::hardening(calibration, search, kernel)
     }
@@ -88,7 +98,7 @@ impl Technique for Pcss {
                 ("FILTER_TAPS", f64::from(FILTER_TAPS)),
                 ("MEAN_OF_ALL", f64::from(u8::from(self.mean == Mean::All))),
             ],
-            law: self.law,
+            law: self.law_in(inputs.calibration),
             pattern: Some(Rotation::World.fragment()),
             ..Shade::new("pcss", OWN)
         };

@@ -4,7 +4,7 @@ fn kernel_tap(i: u32, count: u32, turn: vec2<f32>) -> vec2<f32> {
     return turned(POISSON[i], turn);
 }
 
-const POISSON = array<vec2<f32>, 64>(
+var<private> POISSON: array<vec2<f32>, 64> = array<vec2<f32>, 64>(
     vec2(-0.0936905, 0.3196758),
     vec2(0.1592735, -0.9686295),
     vec2(0.9430245, 0.3139912),

@@ -4,7 +4,7 @@ fn kernel_tap(i: u32, count: u32, turn: vec2<f32>) -> vec2<f32> {
     return turned(SPIRAL[i], turn);
 }
 
-const SPIRAL = array<vec2<f32>, 8>(
+var<private> SPIRAL: array<vec2<f32>, 8> = array<vec2<f32>, 8>(
     vec2(-0.7071, 0.7071),
     vec2(0.0, -0.875),
     vec2(0.5303, 0.5303),

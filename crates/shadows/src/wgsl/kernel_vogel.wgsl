@@ -6,7 +6,7 @@ fn kernel_tap(i: u32, count: u32, turn: vec2<f32>) -> vec2<f32> {
     return inverseSqrt(f32(count)) * turned(VOGEL[i], turn);
 }
 
-const VOGEL = array<vec2<f32>, 64>(
+var<private> VOGEL: array<vec2<f32>, 64> = array<vec2<f32>, 64>(
     vec2(0.707106769, 0),
     vec2(-0.903119147, 0.827270091),
     vec2(0.138348043, -1.57507455),

@@ -93,6 +93,10 @@ fn pcss(plain: &Plain<'_>, name: &str, spot: &Spot) -> Vec<f64> {
         let b = depths.iter().sum::<f64>() / depths.len() as f64;
         let radius = match name {
             "pcss-listing" => tables::law(name, plain.light, plain.calibration)(s.depth, b).max(0.0),
+            // As printed: the document's own linear law.
+            _ if plain.calibration == Calibration::AsPrinted => {
+                tables::law("chss-linear", plain.light, plain.calibration)(s.depth, b).max(0.0)
+            }
             _ => plain.kernel(s.depth, b),
         };
         plain.mean(&placed(&tables::poisson(32), radius, angle), |o| plain.nearest(&s, o))
