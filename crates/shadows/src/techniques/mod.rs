@@ -135,6 +135,7 @@ pub static VARIANTS: &[Variant] = &[
     // Moments of depth.
     Variant { name: "vsm", technique: &Vsm { area: Area::Texel, bound: Bound::Plain } },
     Variant { name: "vsm-listing", technique: &Vsm { area: Area::Texel, bound: Bound::Listing } },
+    Variant { name: "vsm-soft", technique: &Vsm { area: Area::Texel, bound: Bound::Soft } },
     Variant { name: "vsm-filtered", technique: &Vsm { area: Area::Filtered, bound: Bound::Plain } },
     Variant { name: "vsm-lbr", technique: &Vsm { area: Area::Filtered, bound: Bound::Reduced } },
     Variant { name: "vsm-mips", technique: &Vsm { area: Area::Mips, bound: Bound::Plain } },

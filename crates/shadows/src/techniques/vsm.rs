@@ -15,6 +15,8 @@ pub(crate) enum Bound {
     Reduced,
     /// The fourth document's function, with a soft comparison and its defect.
     Listing,
+    /// The same with a floor above zero, as it was meant.
+    Soft,
 }
 
 /// One lookup, one bound.
@@ -34,6 +36,7 @@ impl Bound {
             Self::Listing => {
                 "seed defect: variance floor -0.001; smoothstep(z - 0.02, z) and linstep(0.2, 1) as printed"
             }
+            Self::Soft => "the listing mended: variance floor +0.001",
         }
     }
 
@@ -41,8 +44,13 @@ impl Bound {
     fn fragments(self) -> Vec<Fragment> {
         match self {
             Self::Plain | Self::Reduced => vec![shader::BOUND_REDUCED, shader::CHEBYSHEV],
-            Self::Listing => vec![shader::BOUND_LISTING],
+            Self::Listing | Self::Soft => vec![shader::BOUND_LISTING],
         }
+    }
+
+    /// Smallest variance of the fourth document's function, in depths of 0 to 1.
+    fn floor(self) -> f64 {
+        if self == Self::Soft { 0.001 } else { -0.001 }
     }
 }
 
@@ -83,7 +91,11 @@ impl Technique for Vsm {
         let bleeding = if self.bound == Bound::Reduced { BLEEDING } else { 0.0 };
         let technique = Shade {
             uses: self.bound.fragments(),
-            constants: vec![("FIXED_KERNEL", f64::from(u8::from(self.has_kernel()))), ("BLEEDING", bleeding)],
+            constants: vec![
+                ("FIXED_KERNEL", f64::from(u8::from(self.has_kernel()))),
+                ("BLEEDING", bleeding),
+                ("VARIANCE_FLOOR", self.bound.floor()),
+            ],
             ..Shade::new("vsm", OWN)
         };
         let technique = self.area.read_by(technique, recording, inputs);

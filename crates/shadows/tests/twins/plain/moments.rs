@@ -32,7 +32,8 @@ pub(crate) fn shade(plain: &Plain<'_>, name: &str, spot: &Spot) -> Option<Vec<f6
     let moments = Moments { plain, name, middle: 0.5 * (nearest + far), far, nearest };
     Some(match name {
         "esm" => vec![moments.exponential(&s)],
-        "vsm-listing" => moments.listing(&s),
+        "vsm-listing" => moments.listing(&s, -0.001),
+        "vsm-soft" => moments.listing(&s, 0.001),
         "vsm" | "vsm-filtered" | "vsm-lbr" | "vsm-mips" | "vsm-sat" => {
             let fixed = 2.0 * plain.fixed(s.depth) * plain.side();
             let bounds = moments.bounds(moments.over(s.uv, fixed), moments.counted(&s));
@@ -57,7 +58,7 @@ impl Moments<'_> {
     fn over(&self, uv: [f64; 2], width: f64) -> [f64; 2] {
         let place = uv.map(|c| c * self.plain.side());
         match self.name {
-            "vsm" | "vsm-listing" => {
+            "vsm" | "vsm-listing" | "vsm-soft" => {
                 let map = self.plain.channel("shadow-map", 0, 0);
                 [1, 2].map(|power| lerped(map, place, |depth| self.unit(depth).powi(power)))
             }
@@ -142,12 +143,12 @@ impl Moments<'_> {
     }
 
     /// The fourth document's function: smoothstep(z - .02, z, m1) or linstep(.2, 1, p).
-    fn listing(&self, s: &Shadowed) -> Vec<f64> {
+    fn listing(&self, s: &Shadowed, floor: f64) -> Vec<f64> {
         let (m, z) = (self.over(s.uv, 1.0), self.counted(s));
         let t = ((m[0] - (z - 0.02)) / 0.02).clamp(0.0, 1.0);
         let soft = t * t * (3.0 - 2.0 * t);
         let hard = |variance: f64| {
-            let p = variance.max(-0.001) / (variance.max(-0.001) + (z - m[0]).powi(2));
+            let p = variance.max(floor) / (variance.max(floor) + (z - m[0]).powi(2));
             if p.is_finite() { ((p - 0.2) / 0.8).clamp(0.0, 1.0) } else { 0.0 }
         };
         self.variances(m).map(|variance| soft.max(hard(variance))).into()
