@@ -52,9 +52,15 @@ const TAPS: &[Plant] = &[
 ];
 
 const KERNELS: &[Plant] = &[
-    ("pcf-vogel-16", LightMatched, "kernel_vogel", "VOGEL[i]", "VOGEL[i + 1u]"),
-    ("pcf-vogel-16", LightMatched, "kernel_vogel", "f32(count)", "(f32(count) + 1.0)"),
-    ("pcf-vogel-16", LightMatched, "kernel_vogel", "turned(VOGEL[i], turn)", "turned(VOGEL[i].yx, turn)"),
+    ("pcf-vogel-16", LightMatched, "kernel_vogel", "* 2.4", "* 2.5"),
+    ("pcf-vogel-16", LightMatched, "kernel_vogel", "f32(i) + 0.5", "f32(i)"),
+    (
+        "pcf-vogel-16",
+        LightMatched,
+        "kernel_vogel",
+        "vec2(cos(theta), sin(theta))",
+        "vec2(sin(theta), cos(theta))",
+    ),
     ("pcf-vogel-16-ign", LightMatched, "pcf_disc", "TAU * pattern", "pattern"),
     ("pcf-vogel-16-ign", LightMatched, "pattern_ign", "52.9829189", "50.0"),
     ("pcf-vogel-16-ign", LightMatched, "pattern_ign", "floor(place) + 0.5", "floor(place)"),
