@@ -18,6 +18,7 @@ mod radiance;
 mod rays;
 mod receiver;
 mod samples;
+mod scanlines;
 mod shafts;
 mod surfaces;
 mod tracer;

@@ -34,6 +34,17 @@ pub(crate) fn blocked(
     surfaces.blocked(&line, |slot, corners| receiver.skips(slot, corners))
 }
 
+/// Whether one surface hides one sample.
+pub(crate) fn crosses(
+    surfaces: &Surfaces,
+    (receiver, aim): (&Receiver, &Aim),
+    samples: &LightSamples,
+    slot: u32,
+) -> bool {
+    let line = line(receiver, aim, samples, 0);
+    surfaces.crosses(&line, slot)
+}
+
 /// From the receiver to a sample.
 fn line(receiver: &Receiver, aim: &Aim, samples: &LightSamples, sample: usize) -> Line {
     let to_light = samples.direction(aim, sample);

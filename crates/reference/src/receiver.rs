@@ -20,7 +20,7 @@ pub(crate) struct Receiver {
     /// Unit normal on the viewer's side; zero for a point in mid-air, which has no horizon.
     pub(crate) normal: DVec3,
     /// Its own triangle.
-    slot: Option<u32>,
+    pub(crate) slot: Option<u32>,
 }
 
 impl Receiver {
@@ -42,6 +42,11 @@ impl Receiver {
     /// A place that a ray has hit, seen from `normal`'s side.
     pub(crate) fn hit(slot: u32, position: DVec3, normal: DVec3) -> Self {
         Self { position, normal, slot: Some(slot) }
+    }
+
+    /// A place without a surface.
+    pub(crate) fn in_air(position: DVec3) -> Self {
+        Self { position, normal: DVec3::ZERO, slot: None }
     }
 
     /// Whether a triangle cannot shadow this point: its own, one in the same plane, or one that

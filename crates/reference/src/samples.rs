@@ -78,6 +78,26 @@ impl LightSamples {
         self.spread(aim);
     }
 
+    /// Replaces all samples by one, given in the aim's coordinates.
+    pub(crate) fn set_place(&mut self, aim: &Aim, [x, y]: [f32; 2]) {
+        self.x.clear();
+        self.y.clear();
+        self.nearness.clear();
+        self.x.push(x);
+        self.y.push(y);
+        self.nearness.push(match aim.spread {
+            Spread::Cone { one_minus_cos, distance: Distance::Sphere } => {
+                // Of the tangent plane: tan^2 of the sample's angle is that of the rim times r^2.
+                let [x, y] = [f64::from(x), f64::from(y)];
+                let cos2 = (1.0 - one_minus_cos).powi(2);
+                let cos2_here = 1.0 / (1.0 + (x * x + y * y) * (1.0 - cos2) / cos2);
+                let cos = cos2_here.sqrt();
+                (1.0 / (cos * (cos - (cos2_here - cos2).max(0.0).sqrt()))) as f32
+            }
+            _ => 1.0,
+        });
+    }
+
     /// From the unit square onto the light.
     fn spread(&mut self, aim: &Aim) {
         match aim.outline {

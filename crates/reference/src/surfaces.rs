@@ -93,6 +93,11 @@ impl Surfaces {
         best
     }
 
+    /// Whether one triangle crosses a line.
+    pub(crate) fn crosses(&self, line: &Line, slot: u32) -> bool {
+        intersect(line, self.corners_f64(slot)).is_some_and(|t| t > line.range[0] && t < line.range[1])
+    }
+
     /// Whether any surface but the skipped ones crosses a line.
     pub(crate) fn blocked(&self, line: &Line, skip: impl Fn(u32, &[Vec3; 3]) -> bool) -> bool {
         !self.bvh.ray_traverse_miss(line.boxes(), |_, slot| {

@@ -1,0 +1,253 @@
+//! Way 2 on scanlines: each receiver rasterises what is between into a bit mask of the light
+//! (GROUND_TRUTH, section 0).
+//!
+//! Samples stand on parallel lines across the light, so that a triangle covers one run of bits of
+//! each line. Receivers that are near each other share one walk of the tree. A receiver's result is
+//! a function of its place alone: a longer list of candidates covers the same bits.
+
+mod lines;
+mod outline;
+mod volume;
+
+use crate::aim::{Aim, Elevation};
+use crate::rays;
+use crate::receiver::Receiver;
+use crate::owen::mix;
+use crate::samples::{LightSamples, seed};
+use crate::truth::{Method, PointTruth, Scratch, Sight, Task};
+use crate::{Points, TruthSettings};
+use glam::Vec3;
+use lines::{Lines, REPLICATES, Ruling};
+use outline::{Frame, Outline};
+use rayon::prelude::*;
+use std::ops::Range;
+use umbrage_scene::AreaLight;
+
+/// Receivers that share a list of candidates, at most.
+const TOGETHER: usize = 64;
+
+/// What a thread keeps from group to group.
+#[derive(Default)]
+struct Desk {
+    scratch: Scratch,
+    candidates: Vec<(u32, [Vec3; 3])>,
+    open: Vec<u32>,
+    lines: Lines,
+    samples: LightSamples,
+}
+
+/// The truth at all points, in their order.
+pub(crate) fn truth(task: &Task, points: &Points) -> Vec<PointTruth> {
+    let rulings = Rulings::new(task.settings, task.light);
+    let (order, groups) = neighbours(points);
+    let found: Vec<Vec<PointTruth>> = groups
+        .into_par_iter()
+        .map_init(Desk::default, |desk, range| group(task, &rulings, points, &order[range], desk))
+        .collect();
+    let mut each = vec![PointTruth::exact(1.0, false); points.len()];
+    for (&index, truth) in order.iter().zip(found.into_iter().flatten()) {
+        each[index as usize] = truth;
+    }
+    each
+}
+
+/// Samples that the mean is made of at each point (on a round light on average).
+pub(crate) fn samples(task: &Task) -> u32 {
+    Rulings::new(task.settings, task.light).mean.samples() as u32
+}
+
+struct Rulings {
+    mean: Ruling,
+    basis: Option<Ruling>,
+}
+
+impl Rulings {
+    fn new(settings: &TruthSettings, light: &AreaLight) -> Self {
+        let round = !matches!(light, AreaLight::Rect { .. });
+        let ruling = |samples: u32| Ruling::new(samples.div_ceil(REPLICATES as u32), round);
+        let basis = (settings.basis_samples > 0).then(|| ruling(settings.basis_samples));
+        Self { mean: ruling(settings.samples.saturating_mul(2)), basis }
+    }
+}
+
+/// The points in an order in which neighbours stand together, and that order cut into groups.
+fn neighbours(points: &Points) -> (Vec<u32>, Vec<Range<usize>>) {
+    let mut low = Vec3::INFINITY;
+    let mut high = Vec3::NEG_INFINITY;
+    for &p in &points.position {
+        (low, high) = (low.min(p), high.max(p));
+    }
+    let scale = 2_097_151.0 / (high - low).max_element().max(f32::MIN_POSITIVE);
+    let mut keyed: Vec<(u64, u32)> = (0..points.len())
+        .into_par_iter()
+        .map(|i| {
+            let [x, y, z] = ((points.position[i] - low) * scale).to_array().map(|c| spread(c as u64));
+            (x | y << 1 | z << 2, i as u32)
+        })
+        .collect();
+    keyed.par_sort_unstable();
+    let mut groups = Vec::new();
+    let mut open = vec![0..keyed.len()];
+    while let Some(range) = open.pop() {
+        if range.len() <= TOGETHER {
+            if !range.is_empty() {
+                groups.push(range);
+            }
+            continue;
+        }
+        // At the highest bit that differs, as a linear tree is built (Lauterbach et al. 2009).
+        let (first, last) = (keyed[range.start].0, keyed[range.end - 1].0);
+        let middle = if first == last {
+            range.start + range.len() / 2
+        } else {
+            let bit = 63 - (first ^ last).leading_zeros();
+            range.start + keyed[range.clone()].partition_point(|k| k.0 >> bit & 1 == 0)
+        };
+        open.push(middle..range.end);
+        open.push(range.start..middle);
+    }
+    (keyed.into_iter().map(|k| k.1).collect(), groups)
+}
+
+/// The lower 21 bits, two zeros between each.
+fn spread(word: u64) -> u64 {
+    let mut w = word & 0x1f_ffff;
+    w = (w | w << 32) & 0x001f_0000_0000_ffff;
+    w = (w | w << 16) & 0x001f_0000_ff00_00ff;
+    w = (w | w << 8) & 0x100f_00f0_0f00_f00f;
+    w = (w | w << 4) & 0x10c3_0c30_c30c_30c3;
+    (w | w << 2) & 0x1249_2492_4924_9249
+}
+
+fn group(
+    task: &Task,
+    rulings: &Rulings,
+    points: &Points,
+    order: &[u32],
+    desk: &mut Desk,
+) -> Vec<PointTruth> {
+    let surfaces = &task.tracer.surfaces;
+    let receivers: Vec<Receiver> =
+        order.iter().map(|&i| Receiver::new(surfaces, points, i as usize)).collect();
+    let rays = task.settings.method == Method::ScanlineRays;
+    if !rays {
+        volume::gather(surfaces, task.light, &receivers, (&mut desk.open, &mut desk.candidates));
+    }
+    let mut last = 0;
+    let mut found = Vec::with_capacity(order.len());
+    for (receiver, &index) in receivers.iter().zip(order) {
+        found.push(point(task, rulings, (receiver, points, index as usize), desk, &mut last));
+    }
+    found
+}
+
+fn point(
+    task: &Task,
+    rulings: &Rulings,
+    (receiver, points, index): (&Receiver, &Points, usize),
+    desk: &mut Desk,
+    last: &mut usize,
+) -> PointTruth {
+    let Some(aim) = Aim::new(task.light, receiver) else { return PointTruth::exact(1.0, false) };
+    let elevation = aim.elevation(receiver.normal);
+    let facing = elevation == Elevation::Above;
+    if elevation == Elevation::Below {
+        return PointTruth::exact(0.0, false);
+    }
+    let seed = seed(task.seed, points.position[index]);
+    let mut truth = PointTruth::exact(1.0, facing);
+    let sets = std::iter::once(&rulings.mean).chain(rulings.basis.as_ref());
+    for (set, ruling) in sets.enumerate() {
+        let seed = mix(seed ^ set as u64);
+        let Some(frame) = Frame::new((receiver, &aim), ruling.tilt(seed)) else {
+            // A light without a size, or seen edge-on: the samples of the other ways.
+            return task.point(points, index, &mut desk.scratch);
+        };
+        match look(task, (receiver, &aim, &frame), (ruling, seed), desk, last) {
+            Sight::Lit => {}
+            // What hides all of one set hides all of the light, but for a limb of it.
+            Sight::Hidden if set == 0 => truth = PointTruth { basis: 1.0, ..PointTruth::exact(0.0, facing) },
+            Sight::Hidden => truth.basis = 0.0,
+            Sight::Sampled if set == 0 => truth = PointTruth { basis: 1.0, facing, ..mean(&desk.lines) },
+            Sight::Sampled => truth.basis = share(&desk.lines, 0..REPLICATES) as f32,
+        }
+    }
+    truth
+}
+
+/// The visible part of the samples of some replicates.
+fn share(lines: &Lines, lanes: Range<usize>) -> f64 {
+    let sum = |counts: [u32; REPLICATES]| f64::from(counts[lanes.clone()].iter().sum::<u32>());
+    sum(lines.visible()) / sum(lines.inside()).max(1.0)
+}
+
+fn mean(lines: &Lines) -> PointTruth {
+    let halves = [share(lines, 0..REPLICATES / 2), share(lines, REPLICATES / 2..REPLICATES)];
+    let all = share(lines, 0..REPLICATES);
+    let (visible, inside) = (lines.visible(), lines.inside());
+    let k = REPLICATES as f64;
+    // Of a ratio: the residuals of each replicate against the common share (Cochran 1977, 6.4).
+    let average = f64::from(inside.iter().sum::<u32>()) / k;
+    let squares: f64 = std::iter::zip(visible, inside).map(|(v, n)| (f64::from(v) - all * f64::from(n)).powi(2)).sum();
+    PointTruth {
+        halves: halves.map(|h| h as f32),
+        basis: 0.0,
+        mean: (0.5 * (halves[0] + halves[1])) as f32,
+        variance: (squares / (k * (k - 1.0) * (average * average).max(1.0))) as f32,
+        facing: true,
+    }
+}
+
+/// Covers what is hidden.
+fn look(
+    task: &Task,
+    (receiver, aim, frame): (&Receiver, &Aim, &Frame),
+    (ruling, seed): (&Ruling, u64),
+    desk: &mut Desk,
+    last: &mut usize,
+) -> Sight {
+    let surfaces = &task.tracer.surfaces;
+    let mut drawn = false;
+    if aim.elevation(receiver.normal) == Elevation::Across {
+        ruling.fill(&mut desk.lines, frame, seed);
+        drawn = true;
+        Outline::horizon(frame, receiver.normal).cover(&mut desk.lines, frame);
+    }
+    if task.settings.method == Method::ScanlineRays {
+        if !drawn {
+            ruling.fill(&mut desk.lines, frame, seed);
+        }
+        let hidden = |samples: &LightSamples| rays::blocked(surfaces, (receiver, aim), samples, 0);
+        desk.lines.trace(frame, aim, &mut desk.samples, hidden);
+        return Sight::Sampled;
+    }
+    let count = desk.candidates.len();
+    let start = if *last < count { *last } else { 0 };
+    let mut covered = 0;
+    for step in 0..count {
+        // What hid the neighbour comes first.
+        let at = if start + step < count { start + step } else { start + step - count };
+        let (slot, corners) = &desk.candidates[at];
+        let Some(outline) = frame.outline(corners, ruling) else { continue };
+        if receiver.skips(*slot, corners) {
+            continue;
+        }
+        if !drawn {
+            ruling.fill(&mut desk.lines, frame, seed);
+            drawn = true;
+        }
+        if outline.straddles() {
+            desk.lines.trace(frame, aim, &mut desk.samples, |samples| {
+                rays::crosses(surfaces, (receiver, aim), samples, *slot)
+            });
+        } else {
+            outline.cover(&mut desk.lines, frame);
+        }
+        covered += 1;
+        if (covered < 4 || covered % 8 == 0) && desk.lines.full() {
+            *last = at;
+            return Sight::Hidden;
+        }
+    }
+    if drawn { Sight::Sampled } else { Sight::Lit }
+}

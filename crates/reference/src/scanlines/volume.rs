@@ -1,0 +1,156 @@
+//! Everything between a group of receivers and the light: one walk of the tree for all of them.
+
+use crate::receiver::Receiver;
+use crate::surfaces::Surfaces;
+use crate::{aim::Aim, aim::Outline};
+use glam::{DVec3, Vec3, Vec3A};
+use obvhs::aabb::Aabb;
+use umbrage_scene::AreaLight;
+
+/// Rounding of the f32 arithmetic below, in ulps of the extent, as in `shafts::shaft`.
+const ROUNDING: f64 = 16.0 / (1 << 24) as f64;
+
+/// Half-spaces that hold the convex hull of the receivers and the light, and its bounding box.
+struct Volume {
+    planes: Vec<(Vec3A, f32)>,
+    low: Vec3A,
+    high: Vec3A,
+}
+
+/// Lists the triangles that may hide a part of the light from any of the receivers.
+pub(super) fn gather(
+    surfaces: &Surfaces,
+    light: &AreaLight,
+    receivers: &[Receiver],
+    (open, candidates): (&mut Vec<u32>, &mut Vec<(u32, [Vec3; 3])>),
+) {
+    candidates.clear();
+    open.clear();
+    let volume = Volume::new(light, receivers, f64::from(surfaces.extent));
+    open.push(0);
+    while let Some(index) = open.pop() {
+        let node = &surfaces.bvh.nodes[index as usize];
+        if !volume.touches(node.aabb()) {
+            continue;
+        }
+        let first = node.first_index;
+        if !node.is_leaf() {
+            open.extend([first, first + 1]);
+            continue;
+        }
+        for slot in first..first + node.prim_count {
+            let corners = surfaces.corners[slot as usize];
+            if !volume.misses(&corners) {
+                candidates.push((slot, corners));
+            }
+        }
+    }
+}
+
+impl Volume {
+    fn new(light: &AreaLight, receivers: &[Receiver], extent: f64) -> Self {
+        let places = || receivers.iter().map(|r| r.position);
+        let (low, high) = places()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let middle = Receiver { position: (low + high) * 0.5, ..receivers[0] };
+        let slack = ROUNDING * (extent + low.abs().max(high.abs()).max_element());
+        let far = far_end(light);
+        let mut volume = Self { planes: Vec::with_capacity(5), low: Vec3A::ZERO, high: Vec3A::ZERO };
+        // Inside a sphere light there is no aim, and no candidate either way: keep everything.
+        if let Some(aim) = Aim::new(light, &middle) {
+            for normal in sides(&aim) {
+                let lowest = places().map(|p| normal.dot(p)).fold(f64::INFINITY, f64::min);
+                volume.plane(normal, lowest.min(far.lowest(normal)) - slack);
+            }
+        }
+        let normal = receivers[0].normal;
+        if normal != DVec3::ZERO && receivers.iter().all(|r| r.normal == normal) {
+            let lowest = places().map(|p| normal.dot(p)).fold(f64::INFINITY, f64::min);
+            volume.plane(normal, lowest - slack);
+        }
+        let [from, to] = far.bounds();
+        volume.low = (low.min(from) - DVec3::splat(slack)).as_vec3a();
+        volume.high = (high.max(to) + DVec3::splat(slack)).as_vec3a();
+        volume
+    }
+
+    fn plane(&mut self, normal: DVec3, offset: f64) {
+        self.planes.push((normal.as_vec3a(), offset as f32));
+    }
+
+    fn touches(&self, bounds: &Aabb) -> bool {
+        if (bounds.min.cmpgt(self.high) | bounds.max.cmplt(self.low)).any() {
+            return false;
+        }
+        let (centre, half) = ((bounds.min + bounds.max) * 0.5, (bounds.max - bounds.min) * 0.5);
+        self.planes.iter().all(|(normal, offset)| normal.dot(centre) + normal.abs().dot(half) >= *offset)
+    }
+
+    fn misses(&self, corners: &[Vec3; 3]) -> bool {
+        let corners = corners.map(Vec3A::from);
+        self.planes.iter().any(|(normal, offset)| corners.iter().all(|v| normal.dot(*v) < *offset))
+    }
+}
+
+/// The planes through the receiver that hold the light's outline, turned inwards.
+fn sides(aim: &Aim) -> impl Iterator<Item = DVec3> {
+    let (axis, u, v) = (aim.axis, aim.u, aim.v);
+    [(axis + u, v), (axis - u, v), (axis + v, u), (axis - v, u)].into_iter().filter_map(move |(at, along)| {
+        let normal = at.cross(along).normalize_or_zero();
+        let height = normal.dot(axis);
+        (height.abs() > 1e-9 * axis.length()).then(|| normal * height.signum())
+    })
+}
+
+/// What the volume ends at.
+enum FarEnd {
+    /// Directions: the axis and how far they reach to either side.
+    Sun { axis: DVec3, reach: DVec3 },
+    Corners([DVec3; 4]),
+    Ball { centre: DVec3, radius: f64 },
+}
+
+fn far_end(light: &AreaLight) -> FarEnd {
+    let origin = Receiver::in_air(DVec3::ZERO);
+    match *light {
+        AreaLight::Sphere { centre, radius_world } => {
+            FarEnd::Ball { centre: centre.as_dvec3(), radius: f64::from(radius_world) }
+        }
+        _ => match Aim::new(light, &origin) {
+            Some(aim) if matches!(light, AreaLight::Sun { .. }) => {
+                let reach = DVec3::from_array([0, 1, 2].map(|i| aim.reach(aim.u[i], aim.v[i])));
+                FarEnd::Sun { axis: aim.axis, reach: reach + DVec3::splat(1e-9) }
+            }
+            Some(Aim { axis, u, v, outline, .. }) => {
+                debug_assert!(matches!(outline, Outline::Square | Outline::Disk));
+                FarEnd::Corners([axis + u + v, axis + u - v, axis - u + v, axis - u - v])
+            }
+            None => FarEnd::Ball { centre: DVec3::ZERO, radius: f64::INFINITY },
+        },
+    }
+}
+
+impl FarEnd {
+    fn lowest(&self, normal: DVec3) -> f64 {
+        match self {
+            // The sides of a sun are the same from everywhere: nothing of it is below them.
+            Self::Sun { .. } => f64::INFINITY,
+            Self::Corners(corners) => corners.iter().map(|c| normal.dot(*c)).fold(f64::INFINITY, f64::min),
+            Self::Ball { centre, radius } => normal.dot(*centre) - radius,
+        }
+    }
+
+    fn bounds(&self) -> [DVec3; 2] {
+        match self {
+            Self::Sun { axis, reach } => {
+                let end = |c: f64, sign: f64| if sign * c > 0.0 { sign * f64::INFINITY } else { -sign * f64::INFINITY };
+                [(*axis - *reach).map(|c| end(c, -1.0)), (*axis + *reach).map(|c| end(c, 1.0))]
+            }
+            Self::Corners(corners) => {
+                let fold = |f: fn(DVec3, DVec3) -> DVec3| corners[1..].iter().fold(corners[0], |m, &c| f(m, c));
+                [fold(DVec3::min), fold(DVec3::max)]
+            }
+            Self::Ball { centre, radius } => [*centre - *radius, *centre + *radius],
+        }
+    }
+}
