@@ -7,7 +7,8 @@
 //! a count of hidden ones unbiased; on a round light the share divides by the samples inside, a
 //! ratio whose bias is below 1e-4 at 1024 samples and falls with their number.
 
-use super::outline::Frame;
+use super::frame::{Frame, Turn};
+use super::outline::below;
 use crate::aim::Aim;
 use crate::owen::{mix, unit};
 use crate::samples::LightSamples;
@@ -32,8 +33,8 @@ pub(crate) struct Ruling {
 pub(crate) struct Row {
     /// Across the rows, in the frame's coordinate.
     pub(crate) y: [f32; REPLICATES],
-    /// On a cone, 1 + y^2.
-    pub(crate) q2: [f32; REPLICATES],
+    /// On a cone, the cosine of the row's angle.
+    pub(crate) cos: [f32; REPLICATES],
     /// Sample i stands at `(i + shift) / per_row` of the way from -1 to 1 times the half width.
     pub(crate) shift: [f32; REPLICATES],
     inside: [u32; REPLICATES],
@@ -67,46 +68,56 @@ impl Ruling {
         if self.round { (square as f64 * std::f64::consts::FRAC_PI_4).round() as usize } else { square }
     }
 
-    /// How the frame is turned: sine and cosine on a round light, the shear on a rectangle.
-    pub(crate) fn tilt(&self, seed: u64) -> [f64; 2] {
+    /// How rows lie on the light: turned at random on a round one, rising or falling on a rectangle.
+    pub(crate) fn turn(&self, seed: u64) -> Turn {
         let word = mix(seed ^ 0x7157);
         if self.round {
-            let (sin, cos) = (f64::from(unit(word as u32)) * std::f64::consts::TAU).sin_cos();
-            [cos, sin]
+            let (sin, cos) = (unit(word as u32) * std::f32::consts::TAU).sin_cos();
+            Turn { xx: cos, xy: -sin, yx: sin, yy: cos }
         } else {
-            [if word & 1 == 0 { 1.0 } else { -1.0 } * RISE as f64 / self.rows as f64, 0.0]
+            let rise = RISE as f32 / self.rows as f32;
+            Turn { xx: 1.0, xy: 0.0, yx: if word & 1 == 0 { rise } else { -rise }, yy: 1.0 }
         }
     }
 
+    /// Rows before the one at -1.
+    #[inline(always)]
+    pub(crate) fn before(&self) -> f32 {
+        if self.round { 0.0 } else { 0.5 * RISE as f32 }
+    }
+
     /// Draws all rows; nothing is hidden yet.
-    pub(crate) fn fill(&self, lines: &mut Lines, frame: &Frame, seed: u64) {
+    #[inline(always)]
+    pub(crate) fn fill(&self, lines: &mut Lines, frame: &Frame, turn: &Turn, seed: u64) {
         let extra = if self.round { 0 } else { RISE };
-        lines.rows.clear();
-        lines.rows.resize(self.rows + extra, Row::default());
+        let falls = turn.yx < 0.0;
         let (n, m) = (self.rows as f32, self.per_row as f32);
         lines.per_row = m;
-        let falls = frame.shear < 0.0;
+        lines.rows.clear();
         // Rows that rise start below the light, rows that fall end above it.
-        let first = if self.round || falls { 0.0 } else { -(extra as f32) };
-        let offset = if self.round { 0.0 } else { (RISE as f32) * if falls { -1.0 } else { 1.0 } };
-        let place = |row: f32, common: f32| 2.0 * (row + common + 0.5 * offset) / n - 1.0;
-        for lane in 0..REPLICATES {
-            let key = mix(seed.wrapping_add((lane as u64 + 1) << 8));
-            let common = unit(key as u32);
-            for (j, row) in lines.rows.iter_mut().enumerate() {
-                let at = first + j as f32;
-                // A row that leaves on one side comes back on the other: the same shift along it.
-                let name = (j + self.rows - extra.min(j + self.rows)) % self.rows;
-                let name = if falls { j % self.rows } else { name };
-                row.shift[lane] = unit(mix(key ^ (name as u64) << 32) as u32);
-                let y = place(at, common);
-                row.inside[lane] = if self.round {
-                    self.within(frame, y, row.shift[lane])
-                } else {
-                    self.wrapped([at, common], row.shift[lane], falls)
-                };
-                (row.y[lane], row.q2[lane]) = frame.row(y);
+        let first = if self.round || falls { 0.0 } else { -(RISE as f32) };
+        let middle = if self.round { 0.0 } else { 0.5 * RISE as f32 * if falls { -1.0 } else { 1.0 } };
+        let keys = [0, 1, 2, 3, 4, 5, 6, 7].map(|lane: u64| mix(seed.wrapping_add((lane + 1) << 8)));
+        let common = keys.map(|key| unit(key as u32));
+        for j in 0..self.rows + extra {
+            let at = first + j as f32;
+            // A row that leaves on one side comes back on the other: the same shift along it.
+            let name = if falls || self.round { j } else { j + self.rows - RISE } % self.rows;
+            let mut row = Row::default();
+            for k in 0..REPLICATES {
+                // Two rows to a word.
+                let word = mix(keys[k] ^ (name as u64 >> 1) << 32);
+                row.shift[k] = unit(if name & 1 == 0 { word as u32 } else { (word >> 32) as u32 });
+                row.y[k] = 2.0 * (at + common[k] + middle) / n - 1.0;
             }
+            if self.round {
+                self.within(&mut row, frame);
+            } else {
+                for k in 0..REPLICATES {
+                    row.inside[k] = self.wrapped([at, common[k]], row.shift[k], falls);
+                }
+            }
+            lines.rows.push(row);
         }
     }
 
@@ -114,10 +125,10 @@ impl Ruling {
     /// its other end has the same part, so that the two split their samples exactly.
     fn wrapped(&self, [whole, part]: [f32; 2], shift: f32, falls: bool) -> u32 {
         let n = self.rows as f32;
-        let sign = if falls { -1.0 } else { 1.0 };
         if whole >= RISE as f32 && whole < n - RISE as f32 {
             return u32::MAX >> (BITS - self.per_row);
         }
+        let sign = if falls { -1.0 } else { 1.0 };
         (0..self.per_row).fold(0, |bits, i| {
             let rise = part + sign * RISE as f32 * (i as f32 + shift) / self.per_row as f32;
             let strip = whole + rise.floor();
@@ -126,23 +137,40 @@ impl Ruling {
     }
 
     /// The samples of a row that are on a round light.
-    fn within(&self, frame: &Frame, y: f32, shift: f32) -> u32 {
-        let reach = frame.chord(y);
-        (0..self.per_row).fold(0, |bits, i| {
-            let x = 2.0 * (i as f32 + shift) / self.per_row as f32 - 1.0;
-            bits | u32::from(x * x < reach) << i
-        })
+    #[inline(always)]
+    fn within(&self, row: &mut Row, frame: &Frame) {
+        let mut reach = [0.0f32; REPLICATES];
+        match frame.cone {
+            Some(cone) => {
+                for k in 0..REPLICATES {
+                    [row.y[k], row.cos[k], reach[k]] = cone.row(row.y[k]);
+                }
+            }
+            None => reach = row.y.map(|y| 1.0 - y * y),
+        }
+        let half = 0.5 * self.per_row as f32;
+        for k in 0..REPLICATES {
+            let wide = if reach[k] > 0.0 { reach[k] } else { 0.0 }.sqrt() * half;
+            let centre = half - row.shift[k];
+            row.inside[k] = below(centre + wide) & !below(centre - wide);
+        }
     }
 }
 
 impl Lines {
+    #[inline(always)]
     pub(crate) fn full(&self) -> bool {
-        self.rows.iter().all(|row| {
-            (0..REPLICATES).fold(0, |open, k| open | (row.inside[k] & !row.hidden[k])) == 0
-        })
+        let mut open = [0u32; REPLICATES];
+        for row in &self.rows {
+            for k in 0..REPLICATES {
+                open[k] |= row.inside[k] & !row.hidden[k];
+            }
+        }
+        open.iter().all(|&bits| bits == 0)
     }
 
     /// Per replicate: the visible samples.
+    #[inline(always)]
     pub(crate) fn visible(&self) -> [u32; REPLICATES] {
         let mut count = [0; REPLICATES];
         for row in &self.rows {
@@ -154,6 +182,7 @@ impl Lines {
     }
 
     /// Per replicate: the samples on the light.
+    #[inline(always)]
     pub(crate) fn inside(&self) -> [u32; REPLICATES] {
         let mut count = [0; REPLICATES];
         for row in &self.rows {
@@ -167,8 +196,7 @@ impl Lines {
     /// Asks for every sample that is not hidden yet.
     pub(crate) fn trace(
         &mut self,
-        frame: &Frame,
-        aim: &Aim,
+        (frame, turn, aim): (&Frame, &Turn, &Aim),
         one: &mut LightSamples,
         hidden: impl Fn(&LightSamples) -> bool,
     ) {
@@ -179,7 +207,7 @@ impl Lines {
                     let i = open.trailing_zeros();
                     open &= open - 1;
                     let along = 2.0 * (i as f32 + row.shift[k]) / self.per_row - 1.0;
-                    let [x, y] = frame.place(along, row.y[k], row.q2[k]);
+                    let [x, y] = frame.place(turn, along, [row.y[k], row.cos[k]]);
                     one.set_place(aim, [x, y]);
                     if hidden(one) {
                         row.hidden[k] |= 1 << i;

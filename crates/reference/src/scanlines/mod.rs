@@ -5,6 +5,8 @@
 //! each line. Receivers that are near each other share one walk of the tree. A receiver's result is
 //! a function of its place alone: a longer list of candidates covers the same bits.
 
+mod blocks;
+mod frame;
 mod lines;
 mod outline;
 mod volume;
@@ -17,8 +19,11 @@ use crate::samples::{LightSamples, seed};
 use crate::truth::{Method, PointTruth, Scratch, Sight, Task};
 use crate::{Points, TruthSettings};
 use glam::Vec3;
+use blocks::Blocks;
+use frame::{Frame, Turn};
 use lines::{Lines, REPLICATES, Ruling};
-use outline::{Frame, Outline};
+use outline::{Edge, Outline, rows_between};
+use pulp::Arch;
 use rayon::prelude::*;
 use std::ops::Range;
 use umbrage_scene::AreaLight;
@@ -30,7 +35,7 @@ const TOGETHER: usize = 64;
 #[derive(Default)]
 struct Desk {
     scratch: Scratch,
-    candidates: Vec<(u32, [Vec3; 3])>,
+    blocks: Blocks,
     open: Vec<u32>,
     lines: Lines,
     samples: LightSamples,
@@ -42,7 +47,10 @@ pub(crate) fn truth(task: &Task, points: &Points) -> Vec<PointTruth> {
     let (order, groups) = neighbours(points);
     let found: Vec<Vec<PointTruth>> = groups
         .into_par_iter()
-        .map_init(Desk::default, |desk, range| group(task, &rulings, points, &order[range], desk))
+        .map_init(Desk::default, |desk, range| {
+            // Compiled for the widest registers that there are; the same bits with any.
+            Arch::new().dispatch(|| group(task, &rulings, points, &order[range], desk))
+        })
         .collect();
     let mut each = vec![PointTruth::exact(1.0, false); points.len()];
     for (&index, truth) in order.iter().zip(found.into_iter().flatten()) {
@@ -119,6 +127,7 @@ fn spread(word: u64) -> u64 {
     (w | w << 2) & 0x1249_2492_4924_9249
 }
 
+#[inline(always)]
 fn group(
     task: &Task,
     rulings: &Rulings,
@@ -131,7 +140,7 @@ fn group(
         order.iter().map(|&i| Receiver::new(surfaces, points, i as usize)).collect();
     let rays = task.settings.method == Method::ScanlineRays;
     if !rays {
-        volume::gather(surfaces, task.light, &receivers, (&mut desk.open, &mut desk.candidates));
+        volume::gather(surfaces, task.light, &receivers, (&mut desk.open, &mut desk.blocks));
     }
     let mut last = 0;
     let mut found = Vec::with_capacity(order.len());
@@ -141,6 +150,7 @@ fn group(
     found
 }
 
+#[inline(always)]
 fn point(
     task: &Task,
     rulings: &Rulings,
@@ -155,20 +165,19 @@ fn point(
         return PointTruth::exact(0.0, false);
     }
     let seed = seed(task.seed, points.position[index]);
+    let Some(frame) = Frame::new(receiver, &aim) else {
+        // A light without a size, or seen edge-on: the samples of the other ways.
+        return task.point(points, index, &mut desk.scratch);
+    };
     let mut truth = PointTruth::exact(1.0, facing);
     let sets = std::iter::once(&rulings.mean).chain(rulings.basis.as_ref());
     for (set, ruling) in sets.enumerate() {
         let seed = mix(seed ^ set as u64);
-        let Some(frame) = Frame::new((receiver, &aim), ruling.tilt(seed)) else {
-            // A light without a size, or seen edge-on: the samples of the other ways.
-            return task.point(points, index, &mut desk.scratch);
-        };
-        match look(task, (receiver, &aim, &frame), (ruling, seed), desk, last) {
-            Sight::Lit => {}
-            // What hides all of one set hides all of the light, but for a limb of it.
-            Sight::Hidden if set == 0 => truth = PointTruth { basis: 1.0, ..PointTruth::exact(0.0, facing) },
-            Sight::Hidden => truth.basis = 0.0,
-            Sight::Sampled if set == 0 => truth = PointTruth { basis: 1.0, facing, ..mean(&desk.lines) },
+        let turn = ruling.turn(seed);
+        match look(task, (receiver, &aim), (&frame, &turn), (ruling, seed), desk, last) {
+            Sight::Lit => return PointTruth::exact(1.0, facing),
+            Sight::Hidden => return PointTruth::exact(0.0, facing),
+            Sight::Sampled if set == 0 => truth = PointTruth { facing, ..mean(&desk.lines) },
             Sight::Sampled => truth.basis = share(&desk.lines, 0..REPLICATES) as f32,
         }
     }
@@ -176,11 +185,13 @@ fn point(
 }
 
 /// The visible part of the samples of some replicates.
+#[inline(always)]
 fn share(lines: &Lines, lanes: Range<usize>) -> f64 {
     let sum = |counts: [u32; REPLICATES]| f64::from(counts[lanes.clone()].iter().sum::<u32>());
     sum(lines.visible()) / sum(lines.inside()).max(1.0)
 }
 
+#[inline(always)]
 fn mean(lines: &Lines) -> PointTruth {
     let halves = [share(lines, 0..REPLICATES / 2), share(lines, REPLICATES / 2..REPLICATES)];
     let all = share(lines, 0..REPLICATES);
@@ -198,55 +209,99 @@ fn mean(lines: &Lines) -> PointTruth {
     }
 }
 
-/// Covers what is hidden.
+/// Covers what is hidden. Lit and hidden are exact: nothing is between, or one triangle is before the
+/// whole light.
+#[inline(always)]
 fn look(
     task: &Task,
-    (receiver, aim, frame): (&Receiver, &Aim, &Frame),
+    (receiver, aim): (&Receiver, &Aim),
+    (frame, turn): (&Frame, &Turn),
     (ruling, seed): (&Ruling, u64),
     desk: &mut Desk,
     last: &mut usize,
 ) -> Sight {
     let surfaces = &task.tracer.surfaces;
+    let lines = &mut desk.lines;
     let mut drawn = false;
     if aim.elevation(receiver.normal) == Elevation::Across {
-        ruling.fill(&mut desk.lines, frame, seed);
+        ruling.fill(lines, frame, turn, seed);
         drawn = true;
-        Outline::horizon(frame, receiver.normal).cover(&mut desk.lines, frame);
+        let [a, b, c] = frame.form(-receiver.normal);
+        let mut below = Outline::new(Outline::ALL_ROWS);
+        below.add(turn, Edge { a, b, c });
+        below.cover(lines, frame);
     }
     if task.settings.method == Method::ScanlineRays {
         if !drawn {
-            ruling.fill(&mut desk.lines, frame, seed);
+            ruling.fill(lines, frame, turn, seed);
         }
         let hidden = |samples: &LightSamples| rays::blocked(surfaces, (receiver, aim), samples, 0);
-        desk.lines.trace(frame, aim, &mut desk.samples, hidden);
+        lines.trace((frame, turn, aim), &mut desk.samples, hidden);
         return Sight::Sampled;
     }
-    let count = desk.candidates.len();
-    let start = if *last < count { *last } else { 0 };
+    let count = desk.blocks.blocks.len();
+    // What hid the neighbour comes first.
+    let first = if *last < count { *last } else { 0 };
     let mut covered = 0;
-    for step in 0..count {
-        // What hid the neighbour comes first.
-        let at = if start + step < count { start + step } else { start + step - count };
-        let (slot, corners) = &desk.candidates[at];
-        let Some(outline) = frame.outline(corners, ruling) else { continue };
-        if receiver.skips(*slot, corners) {
-            continue;
-        }
-        if !drawn {
-            ruling.fill(&mut desk.lines, frame, seed);
-            drawn = true;
-        }
-        if outline.straddles() {
-            desk.lines.trace(frame, aim, &mut desk.samples, |samples| {
-                rays::crosses(surfaces, (receiver, aim), samples, *slot)
-            });
+    // The block that hid the neighbour, then all.
+    let eights = desk.blocks.eights();
+    for step in 0..=eights {
+        let (eight, mut between) = if step == 0 {
+            (first / blocks::LANES, u32::from(count > 0) << (first % blocks::LANES))
         } else {
-            outline.cover(&mut desk.lines, frame);
-        }
-        covered += 1;
-        if (covered < 4 || covered % 8 == 0) && desk.lines.full() {
-            *last = at;
-            return Sight::Hidden;
+            (step - 1, desk.blocks.between(frame, step - 1))
+        };
+        while between != 0 {
+            let at = eight * blocks::LANES + between.trailing_zeros() as usize;
+            between &= between - 1;
+            if step > 0 && at == first {
+                continue;
+            }
+            let block = &desk.blocks.blocks[at];
+            let survey = block.survey(frame);
+            let mut some = survey.some;
+            while some != 0 {
+                let lane = some.trailing_zeros() as usize;
+                some &= some - 1;
+                let slot = block.slots[lane];
+                if receiver.skips(slot, &block.triangle(lane)) {
+                    continue;
+                }
+                if survey.whole >> lane & 1 != 0 {
+                    *last = at;
+                    return Sight::Hidden;
+                }
+                if !drawn {
+                    ruling.fill(lines, frame, turn, seed);
+                    drawn = true;
+                }
+                let straddles = survey.straddle >> lane & 1 != 0;
+                if straddles && !frame.flat {
+                    lines.trace((frame, turn, aim), &mut desk.samples, |samples| {
+                        rays::crosses(surfaces, (receiver, aim), samples, slot)
+                    });
+                } else {
+                    // Across the rows: what the turn makes y of.
+                    let across = [-turn.yx, turn.yy];
+                    let rows = match survey.extent(lane, across) {
+                        Some(places) => rows_between(frame, ruling, places),
+                        None => Outline::ALL_ROWS,
+                    };
+                    let mut outline = Outline::new(rows);
+                    for edge in survey.edges(lane) {
+                        outline.add(turn, edge);
+                    }
+                    if straddles {
+                        outline.add(turn, survey.nearer(lane, frame.depth[0]));
+                    }
+                    outline.cover(lines, frame);
+                }
+                covered += 1;
+            }
+            if covered > 0 && lines.full() {
+                *last = at;
+                return Sight::Sampled;
+            }
         }
     }
     if drawn { Sight::Sampled } else { Sight::Lit }

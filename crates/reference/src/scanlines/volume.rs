@@ -1,5 +1,6 @@
 //! Everything between a group of receivers and the light: one walk of the tree for all of them.
 
+use super::blocks::Blocks;
 use crate::receiver::Receiver;
 use crate::surfaces::Surfaces;
 use crate::{aim::Aim, aim::Outline};
@@ -22,9 +23,9 @@ pub(super) fn gather(
     surfaces: &Surfaces,
     light: &AreaLight,
     receivers: &[Receiver],
-    (open, candidates): (&mut Vec<u32>, &mut Vec<(u32, [Vec3; 3])>),
+    (open, blocks): (&mut Vec<u32>, &mut Blocks),
 ) {
-    candidates.clear();
+    blocks.clear();
     open.clear();
     let volume = Volume::new(light, receivers, f64::from(surfaces.extent));
     open.push(0);
@@ -41,10 +42,11 @@ pub(super) fn gather(
         for slot in first..first + node.prim_count {
             let corners = surfaces.corners[slot as usize];
             if !volume.misses(&corners) {
-                candidates.push((slot, corners));
+                blocks.push(slot, &corners);
             }
         }
     }
+    blocks.close();
 }
 
 impl Volume {

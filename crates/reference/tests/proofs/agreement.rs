@@ -16,8 +16,12 @@ fn lights() -> [AreaLight; 4] {
     ]
 }
 
-fn both(tracer: &Tracer, points: &Points, light: &AreaLight) -> [GroundTruth; 2] {
-    [Method::Rays, Method::Shafts].map(|method| tracer.truth(points, light, &settings(128, method)))
+/// An arbiter and what it judges, on the same samples.
+const PAIRS: [[Method; 2]; 2] =
+    [[Method::Rays, Method::Shafts], [Method::ScanlineRays, Method::Scanlines]];
+
+fn both(tracer: &Tracer, points: &Points, light: &AreaLight, pair: [Method; 2]) -> [GroundTruth; 2] {
+    pair.map(|method| tracer.truth(points, light, &settings(128, method)))
 }
 
 /// Samples, of 256, that differ at each point.
@@ -54,7 +58,9 @@ fn blocks_on_a_floor() {
     let grazing = Vec3::new(1.0, 0.05, 0.2).normalize();
     let low = AreaLight::Sun { direction_to_light: grazing, angular_diameter_radians: 0.08 };
     for light in lights().into_iter().chain([low]) {
-        assert_ties_only(&format!("{light:?}"), &both(&tracer, &points, &light));
+        for pair in PAIRS {
+            assert_ties_only(&format!("{pair:?} {light:?}"), &both(&tracer, &points, &light, pair));
+        }
     }
 }
 
@@ -71,7 +77,9 @@ fn triangle_soup() {
     let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
     let points = tracer.primary(&view(Vec3::new(0.0, 1.0, 12.0), Vec3::ZERO, [96, 54])).points();
     for light in lights() {
-        assert_ties_only(&format!("{light:?}"), &both(&tracer, &points, &light));
+        for pair in PAIRS {
+            assert_ties_only(&format!("{pair:?} {light:?}"), &both(&tracer, &points, &light, pair));
+        }
     }
 }
 
@@ -83,9 +91,14 @@ fn standard_scenes() {
         let frames = &scene.paths[0].frames;
         let middle = &frames[frames.len() / 2];
         let points = tracer.primary(&view_of(&middle.camera, [64, 36])).points();
-        let differing = differences(&both(&tracer, &points, &middle.light));
-        let count = differing.iter().filter(|&&d| d > 0).count();
-        let worst = differing.iter().max().copied().unwrap_or(0);
-        assert!(count <= points.len() / 100 && worst <= 3, "{name}: {count} differ, by up to {worst}");
+        for pair in PAIRS {
+            let differing = differences(&both(&tracer, &points, &middle.light, pair));
+            let count = differing.iter().filter(|&&d| d > 0).count();
+            let worst = differing.iter().max().copied().unwrap_or(0);
+            assert!(
+                count <= points.len() / 100 && worst <= 3,
+                "{name}, {pair:?}: {count} differ, by up to {worst}"
+            );
+        }
     }
 }

@@ -32,7 +32,7 @@ pub(crate) fn assert_exact(what: &str, truth: &GroundTruth, exact: &[f64], geome
 
 fn check(what: &str, scene: &[[Vec3; 3]], points: &Points, light: &AreaLight, exact: &[f64]) {
     let tracer = Tracer::new(&crate::common::scene(scene)).expect("a scene");
-    for method in [Method::Rays, Method::Shafts] {
+    for method in [Method::Rays, Method::Shafts, Method::Scanlines] {
         let truth = tracer.truth(points, light, &settings(128, method));
         assert_exact(&format!("{what}, {method:?}"), &truth, exact, 0.0);
     }

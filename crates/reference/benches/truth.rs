@@ -1,0 +1,244 @@
+//! Seconds that truth takes, alone or in turns with another program.
+//!
+//! `cargo bench -p umbrage-reference --bench truth -- CASE [--models DIR] [--size WxH] [--samples N]
+//! [--rounds N] [--method NAME]... [--export FILE] [--serve]`. Without `--models` there is only the case
+//! `colonnade`. `--export` writes the triangles, the receivers and the light for
+//! `tests/peers/embree`; `--serve` waits for a line on standard input before each round, so that a
+//! script can let two programs take turns.
+#![expect(clippy::print_stdout, reason = "a program, not a library")]
+
+use glam::Vec3;
+use std::error::Error;
+use std::io::{BufRead, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use umbrage_frame::View;
+use umbrage_reference::{Method, Points, Tracer, TruthSettings};
+use umbrage_scene::{AreaLight, Camera, Scene};
+
+const CASES: [&str; 10] = [
+    "colonnade", "sponza-sun", "atrium-sun", "atrium-rect", "atrium-disk", "atrium-sphere", "atrium4-sun",
+    "atrium4-rect", "atrium-wide", "atrium-real-sun",
+];
+
+struct Options {
+    case: String,
+    models: PathBuf,
+    size: [u32; 2],
+    samples: u32,
+    rounds: usize,
+    methods: Vec<Method>,
+    export: Option<PathBuf>,
+    serve: bool,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let options = options()?;
+    let (scene, camera, light) = case(&options)?;
+    let (tracer, seconds) = timed(|| Tracer::new(&scene));
+    let tracer = tracer?;
+    println!("{}: {} triangles, tree in {seconds:.2} s", options.case, scene.geometry.triangles.len());
+    let view = view(&camera, options.size);
+    let (hits, seconds) = timed(|| tracer.primary(&view));
+    let points = hits.points();
+    println!("{} points, camera rays in {seconds:.3} s; {light:?}", points.len());
+    if let Some(path) = &options.export {
+        return export(path, &scene, &points, &light, (&camera, &view, options.samples));
+    }
+    let settings = |method| TruthSettings {
+        samples: options.samples / 2,
+        basis_samples: 0,
+        method,
+        ..Default::default()
+    };
+    if options.serve {
+        for line in std::io::stdin().lock().lines() {
+            let seconds = match line?.as_str() {
+                "camera" => timed(|| tracer.primary(&view)).1,
+                _ => timed(|| tracer.truth(&points, &light, &settings(options.methods[0]))).1,
+            };
+            println!("{{\"seconds\": {seconds}}}");
+        }
+        return Ok(());
+    }
+    for method in &options.methods {
+        let mut seconds = Vec::new();
+        let mut found = None;
+        for _ in 0..options.rounds {
+            let (truth, took) = timed(|| tracer.truth(&points, &light, &settings(*method)));
+            seconds.push(took);
+            found = Some(truth);
+        }
+        seconds.sort_by(f64::total_cmp);
+        let truth = found.ok_or("no round")?;
+        let share = |f: &dyn Fn(f32) -> bool| truth.mean.iter().filter(|&&m| f(m)).count() as f64 / truth.mean.len() as f64;
+        let mean = truth.mean.iter().map(|&m| f64::from(m)).sum::<f64>() / truth.mean.len() as f64;
+        let error = (truth.variance.iter().map(|&v| f64::from(v)).sum::<f64>() / truth.mean.len() as f64).sqrt();
+        let median = seconds[seconds.len() / 2];
+        println!(
+            "{method:?} x {}: {median:.3} s ({:.3} to {:.3}), {:.1} Msamples/s; V {mean:.6}, standard error {error:.5} (RMS); {:.3} lit, {:.3} hidden",
+            truth.samples,
+            seconds[0],
+            seconds[seconds.len() - 1],
+            points.len() as f64 * f64::from(truth.samples) / median / 1e6,
+            share(&|m| m == 1.0),
+            share(&|m| m == 0.0),
+        );
+    }
+    Ok(())
+}
+
+fn options() -> Result<Options, Box<dyn Error>> {
+    let mut options = Options {
+        case: "colonnade".into(),
+        models: PathBuf::new(),
+        size: [480, 270],
+        samples: 1024,
+        rounds: 1,
+        methods: Vec::new(),
+        export: None,
+        serve: false,
+    };
+    // Cargo adds `--bench`.
+    let mut arguments = std::env::args().skip(1).filter(|a| a != "--bench");
+    while let Some(argument) = arguments.next() {
+        let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
+        match argument.as_str() {
+            "--models" => options.models = value()?.into(),
+            "--size" => {
+                let text = value()?;
+                let (width, height) = text.split_once('x').ok_or("WxH")?;
+                options.size = [width.parse()?, height.parse()?];
+            }
+            "--samples" => options.samples = value()?.parse()?,
+            "--rounds" => options.rounds = value()?.parse()?,
+            "--method" => options.methods.push(match value()?.as_str() {
+                "rays" => Method::Rays,
+                "shafts" => Method::Shafts,
+                "scanlines" => Method::Scanlines,
+                "scanline-rays" => Method::ScanlineRays,
+                other => return Err(format!("no method {other}").into()),
+            }),
+            "--export" => options.export = Some(value()?.into()),
+            "--serve" => options.serve = true,
+            name if CASES.contains(&name) => options.case = name.into(),
+            other => return Err(format!("{other} is none of {CASES:?} and no option").into()),
+        }
+    }
+    if options.methods.is_empty() {
+        options.methods.push(Method::Scanlines);
+    }
+    Ok(options)
+}
+
+fn case(options: &Options) -> Result<(Scene, Camera, AreaLight), Box<dyn Error>> {
+    let camera = |eye: [f32; 3], target: [f32; 3]| {
+        Camera::look_at(eye.into(), target.into(), 60f32.to_radians(), 0.05, 500.0)
+    };
+    let sun = |direction: [f32; 3], degrees: f32| AreaLight::Sun {
+        direction_to_light: Vec3::from(direction).normalize(),
+        angular_diameter_radians: degrees.to_radians(),
+    };
+    if options.case == "colonnade" {
+        let scene = Scene::builtin("colonnade")?;
+        let frame = scene.paths[0].frames[scene.paths[0].frames.len() / 2];
+        return Ok((scene, frame.camera, frame.light));
+    }
+    let model = if options.case.starts_with("sponza") { "crytek_sponza.obj" } else { "atrium.obj" };
+    let mut scene = Scene::load(Path::new(&options.models.join(model)))?;
+    if options.case.starts_with("sponza") {
+        return Ok((scene, camera([10.5, 1.8, -0.4], [-10.0, 3.5, -0.4]), sun([0.15, 0.95, 0.25], 2.0)));
+    }
+    if options.case.starts_with("atrium4") {
+        split(&mut scene);
+    }
+    let centre = Vec3::new(-3.0, 7.6, 0.8);
+    let (u, v) = (Vec3::X, Vec3::new(0.0, 0.6, 0.8));
+    let rect = |half: f32| AreaLight::Rect { centre, half_u: u * half, half_v: v * half };
+    let light = match options.case.rsplit_once('-').map_or("", |(_, kind)| kind) {
+        "rect" => rect(0.3),
+        "wide" => rect(3.0),
+        "disk" => {
+            let normal = Vec3::new(0.2, -1.0, 0.1).normalize();
+            AreaLight::Disk { centre, normal, radius_world: 0.3 }
+        }
+        "sphere" => AreaLight::Sphere { centre, radius_world: 0.3 },
+        _ => sun([0.25, 0.9, 0.35], if options.case.contains("real") { 0.53 } else { 2.0 }),
+    };
+    Ok((scene, camera([-9.5, 2.6, 1.6], [1.0, 2.3, -1.2]), light))
+}
+
+/// Four triangles in place of each.
+fn split(scene: &mut Scene) {
+    let geometry = &mut scene.geometry;
+    let old = std::mem::take(&mut geometry.triangles);
+    let material = std::mem::take(&mut geometry.material);
+    for (triangle, material) in old.into_iter().zip(material) {
+        let [a, b, c] = triangle;
+        let first = geometry.positions.len() as u32;
+        let middle = |p: u32, q: u32| (geometry.positions[p as usize] + geometry.positions[q as usize]) * 0.5;
+        let middles = [middle(a, b), middle(b, c), middle(c, a)];
+        geometry.positions.extend(middles);
+        let [ab, bc, ca] = [first, first + 1, first + 2];
+        geometry.triangles.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+        geometry.material.extend([material; 4]);
+    }
+}
+
+fn export(
+    path: &Path,
+    scene: &Scene,
+    points: &Points,
+    light: &AreaLight,
+    (camera, view, samples): (&Camera, &View, u32),
+) -> Result<(), Box<dyn Error>> {
+    let (kind, a, b, c) = match *light {
+        AreaLight::Sun { direction_to_light, angular_diameter_radians } => {
+            (0, direction_to_light, Vec3::X * angular_diameter_radians, Vec3::ZERO)
+        }
+        AreaLight::Disk { centre, normal, radius_world } => (1, centre, normal, Vec3::X * radius_world),
+        AreaLight::Rect { centre, half_u, half_v } => (2, centre, half_u, half_v),
+        AreaLight::Sphere { centre, radius_world } => (3, centre, Vec3::X * radius_world, Vec3::ZERO),
+    };
+    let mut out = BufWriter::new(std::fs::File::create(path)?);
+    let count = scene.geometry.triangles.len() as u32;
+    let rays = view.width * view.height;
+    for word in [0x554d_4231, count, points.len() as u32, kind, samples, rays, 0, 0] {
+        out.write_all(&word.to_le_bytes())?;
+    }
+    let mut put = |v: Vec3| v.to_array().iter().try_for_each(|c| out.write_all(&c.to_le_bytes()));
+    for v in [a, b, c] {
+        put(v)?;
+    }
+    for triangle in 0..count {
+        scene.geometry.corners(triangle as usize).into_iter().try_for_each(&mut put)?;
+    }
+    for (&position, &normal) in points.position.iter().zip(&points.normal) {
+        put(position)?;
+        put(normal)?;
+    }
+    put(camera.eye())?;
+    let world_from_clip = view.clip_from_world.inverse();
+    for index in 0..rays {
+        let x = ((index % view.width) as f32 + 0.5) / view.width as f32 * 2.0 - 1.0;
+        let y = 1.0 - ((index / view.width) as f32 + 0.5) / view.height as f32 * 2.0;
+        put((world_from_clip.project_point3(Vec3::new(x, y, 0.5)) - camera.eye()).normalize())?;
+    }
+    Ok(())
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let started = Instant::now();
+    let result = work();
+    (result, started.elapsed().as_secs_f64())
+}
+
+fn view(camera: &Camera, [width, height]: [u32; 2]) -> View {
+    View {
+        width,
+        height,
+        clip_from_world: camera.clip_from_camera(width as f32 / height as f32) * camera.camera_from_world(),
+        camera_from_world: camera.camera_from_world(),
+        yfov_radians: camera.yfov_radians,
+    }
+}
