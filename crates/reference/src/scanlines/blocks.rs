@@ -1,29 +1,25 @@
 //! Triangles in eights, tested against a light together.
-//!
-//! Plain loops over eight lanes, inlined into a function that is compiled for wide registers.
 
-use super::frame::Frame;
+use super::eight::{Eight, LANES};
+use super::frame::{Frame, Turn};
 use super::outline::{Edge, MARGIN};
 use glam::Vec3;
 
-pub(crate) const LANES: usize = 8;
-type Lanes = [f32; LANES];
-
-/// Eight triangles, or fewer.
+/// Eight triangles, or fewer: the last lanes repeat one.
 #[derive(Clone, Copy)]
 pub(crate) struct Block {
-    /// Corner, axis, lane.
-    corners: [[Lanes; 3]; 3],
+    /// Corner, axis.
+    corners: [[Eight; 3]; 3],
     pub(crate) slots: [u32; LANES],
     /// A bit for each triangle that there is.
     used: u32,
 }
 
 /// The boxes around eight blocks.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Boxes {
-    centre: [Lanes; 3],
-    half: [Lanes; 3],
+    centre: [Eight; 3],
+    half: [Eight; 3],
 }
 
 /// Everything between a group of receivers and the light.
@@ -36,11 +32,11 @@ pub(crate) struct Blocks {
 
 /// What eight triangles look like from one receiver.
 pub(crate) struct Survey {
-    /// Edge, coefficient, lane.
-    edges: [[Lanes; 3]; 3],
-    /// Corner, coordinate, lane.
-    corners: [[Lanes; 3]; 3],
-    volume: Lanes,
+    /// Edge, coefficient.
+    edges: [[Eight; 3]; 3],
+    /// Corner, coordinate.
+    corners: [[Eight; 3]; 3],
+    volume: Eight,
     /// A bit for each triangle that may hide something, for those that hide everything, and for
     /// those that are not wholly nearer than the light.
     pub(crate) some: u32,
@@ -58,13 +54,13 @@ impl Blocks {
     pub(crate) fn push(&mut self, slot: u32, corners: &[Vec3; 3]) {
         let lane = self.filled % LANES;
         if lane == 0 {
-            let corners = corners.map(|c| c.to_array().map(|c| [c; LANES]));
+            let corners = corners.map(|c| c.to_array().map(Eight::all));
             self.blocks.push(Block { corners, slots: [slot; LANES], used: 0 });
         }
         if let Some(block) = self.blocks.last_mut() {
             for (into, corner) in block.corners.iter_mut().zip(corners) {
                 for (into, c) in into.iter_mut().zip(corner.to_array()) {
-                    into[lane] = c;
+                    into.0[lane] = c;
                 }
             }
             block.slots[lane] = slot;
@@ -77,20 +73,14 @@ impl Blocks {
     #[inline(always)]
     pub(crate) fn close(&mut self) {
         for blocks in self.blocks.chunks(LANES) {
-            let mut boxes = Boxes { centre: [[0.0; LANES]; 3], half: [[0.0; LANES]; 3] };
+            let mut boxes = Boxes::default();
             for (lane, block) in blocks.iter().enumerate() {
                 for axis in 0..3 {
-                    let [mut low, mut high] = [block.corners[0][axis]; 2];
-                    for corner in &block.corners[1..] {
-                        for k in 0..LANES {
-                            low[k] = low[k].min(corner[axis][k]);
-                            high[k] = high[k].max(corner[axis][k]);
-                        }
-                    }
-                    let low = low.into_iter().fold(f32::INFINITY, f32::min);
-                    let high = high.into_iter().fold(f32::NEG_INFINITY, f32::max);
-                    boxes.centre[axis][lane] = 0.5 * (low + high);
-                    boxes.half[axis][lane] = 0.5 * (high - low);
+                    let [a, b, c] = [block.corners[0][axis], block.corners[1][axis], block.corners[2][axis]];
+                    let low = a.min(b).min(c).0.into_iter().fold(f32::INFINITY, f32::min);
+                    let high = a.max(b).max(c).0.into_iter().fold(f32::NEG_INFINITY, f32::max);
+                    boxes.centre[axis].0[lane] = 0.5 * (low + high);
+                    boxes.half[axis].0[lane] = 0.5 * (high - low);
                 }
             }
             self.boxes.push(boxes);
@@ -109,160 +99,134 @@ impl Blocks {
         let p = frame.place[0];
         let m = &frame.light_from_world;
         let (x, y, z) = (m.row(0), m.row(1), m.row(2));
+        let d = three(|axis| boxes.centre[axis] - Eight::all(p[axis]));
+        // Twenty roundings of f32 are below 2e-6.
+        let h = three(|axis| {
+            boxes.half[axis] + Eight::all(2e-6) * (d[axis].abs() + boxes.half[axis])
+        });
+        let dot = |n: Vec3, v: &[Eight; 3]| Eight::all(n.x) * v[0] + Eight::all(n.y) * v[1] + Eight::all(n.z) * v[2];
+        let most = |n: Vec3| dot(n, &d) + dot(n.abs(), &h);
         // Inside, Z is positive and as large as X and Y; the light ends before the last depth.
-        let planes = [z - x, z + x, z - y, z + y, z];
-        let depth = frame.depth[1];
-        let mut out = [0u32; LANES];
-        for (k, out) in out.iter_mut().enumerate() {
-            let d = [0, 1, 2].map(|axis| boxes.centre[axis][k] - p[axis]);
-            // Twenty roundings of f32 are below 2e-6.
-            let h = [0, 1, 2].map(|axis| boxes.half[axis][k] + 2e-6 * (d[axis].abs() + boxes.half[axis][k]));
-            let reach = |n: Vec3| n.x.abs() * h[0] + n.y.abs() * h[1] + n.z.abs() * h[2];
-            let at = |n: Vec3| n.x * d[0] + n.y * d[1] + n.z * d[2];
-            let mut least = f32::INFINITY;
-            for n in planes {
-                let most = at(n) + reach(n);
-                least = if most < least { most } else { least };
-            }
-            let near = at(z) - reach(z) < depth;
-            *out = u32::from(least >= 0.0) & u32::from(near);
-        }
-        let bits = bits(&out, 1);
+        let least = most(z - x).min(most(z + x)).min(most(z - y)).min(most(z + y)).min(most(z));
+        let nearest = dot(z, &d) - dot(z.abs(), &h);
+        let off = least.below(Eight::all(0.0)).bits();
+        let near = nearest.below(Eight::all(frame.depth[1])).bits();
         let blocks = (self.blocks.len() - eight * LANES).min(LANES);
-        bits & 0xff >> (LANES - blocks)
+        !off & near & 0xff >> (LANES - blocks)
     }
 }
-
-const SOME: u32 = 1;
-const WHOLE: u32 = 2;
-const STRADDLE: u32 = 4;
 
 impl Block {
     #[inline(always)]
     pub(crate) fn survey(&self, frame: &Frame) -> Survey {
         let [high, low] = frame.place;
-        let m = &frame.light_from_world;
+        let m = frame.light_from_world.to_cols_array_2d();
         let [near, far] = frame.depth;
-        let mut survey = Survey {
-            edges: [[[0.0; LANES]; 3]; 3],
-            corners: [[[0.0; LANES]; 3]; 3],
-            volume: [0.0; LANES],
-            some: 0,
-            whole: 0,
-            straddle: 0,
+        let corner = |i: usize| {
+            let d = three(|axis| (self.corners[i][axis] - Eight::all(high[axis])) - Eight::all(low[axis]));
+            three(|row| {
+                Eight::all(m[0][row]) * d[0] + Eight::all(m[1][row]) * d[1] + Eight::all(m[2][row]) * d[2]
+            })
         };
-        let mut flags = [0u32; LANES];
-        let wide = 1.0 + MARGIN;
-        for k in 0..LANES {
-            let corner = |i: usize| {
-                let [x, y, z] = [0, 1, 2].map(|axis| (self.corners[i][axis][k] - high[axis]) - low[axis]);
-                [
-                    m.x_axis.x * x + m.y_axis.x * y + m.z_axis.x * z,
-                    m.x_axis.y * x + m.y_axis.y * y + m.z_axis.y * z,
-                    m.x_axis.z * x + m.y_axis.z * y + m.z_axis.z * z,
-                ]
-            };
-            let [a, b, c] = [corner(0), corner(1), corner(2)];
-            for axis in 0..3 {
-                survey.corners[0][axis][k] = a[axis];
-                survey.corners[1][axis][k] = b[axis];
-                survey.corners[2][axis][k] = c[axis];
-            }
-            // Off the light on one side: X, -X, Y or -Y is larger than Z at every corner.
-            let least = |sign: f32, axis: usize| {
-                let over = |p: [f32; 3]| sign * p[axis] - wide * p[2];
-                min3(over(a), over(b), over(c))
-            };
-            let outside = max(max(least(1.0, 0), least(-1.0, 0)), max(least(1.0, 1), least(-1.0, 1)));
-            let nearest = min3(a[2], b[2], c[2]);
-            let farthest = -min3(-a[2], -b[2], -c[2]);
-            let (n0, n1, n2) = (edge(b, c), edge(c, a), edge(a, b));
-            let volume = a[0] * n0[0] + a[1] * n0[1] + a[2] * n0[2];
-            let sign = if volume < 0.0 { -1.0 } else { 1.0 };
-            survey.volume[k] = volume * sign;
-            // An edge's least and largest value on the light.
-            let (mut smallest, mut largest) = (f32::INFINITY, f32::INFINITY);
-            for (into, n) in survey.edges.iter_mut().zip([n0, n1, n2]) {
-                let [a, b, c] = n.map(|v| v * sign);
-                into[0][k] = a;
-                into[1][k] = b;
-                into[2][k] = c;
-                let reach = if frame.round { (a * a + b * b).sqrt() } else { a.abs() + b.abs() };
-                smallest = min(smallest, c - reach);
-                largest = min(largest, c + reach);
-            }
-            let some = (outside <= 0.0) & (farthest > 0.0) & (nearest < far) & (largest >= 0.0) & (volume != 0.0);
-            let beyond = farthest >= near;
-            flags[k] = if some { SOME } else { 0 }
-                | if smallest >= 0.0 { WHOLE } else { 0 }
-                | if beyond { STRADDLE } else { 0 };
+        let [a, b, c] = three(corner);
+        let nearest = a[2].min(b[2]).min(c[2]);
+        let farthest = a[2].max(b[2]).max(c[2]);
+        // Off the light on one side: X, -X, Y or -Y is larger than Z at every corner.
+        let wide = Eight::all(1.0 + MARGIN);
+        let reach = [a[2] * wide, b[2] * wide, c[2] * wide];
+        let least = |axis: usize| {
+            let beyond = (a[axis] - reach[0]).min(b[axis] - reach[1]).min(c[axis] - reach[2]);
+            let before = (a[axis] + reach[0]).max(b[axis] + reach[1]).max(c[axis] + reach[2]);
+            beyond.max(-before)
+        };
+        let outside = least(0).max(least(1));
+        let normals = [edge(&b, &c), edge(&c, &a), edge(&a, &b)];
+        let volume = a[0] * normals[0][0] + a[1] * normals[0][1] + a[2] * normals[0][2];
+        let edges = three(|i| three(|j| normals[i][j].signed_as(volume)));
+        // An edge's least and largest value on the light.
+        let mut smallest = Eight::all(f32::INFINITY);
+        let mut largest = Eight::all(f32::INFINITY);
+        for [a, b, c] in &edges {
+            let reach = if frame.round { (*a * *a + *b * *b).sqrt() } else { a.abs() + b.abs() };
+            smallest = smallest.min(*c - reach);
+            largest = largest.min(*c + reach);
         }
-        survey.some = bits(&flags, SOME) & self.used;
-        survey.straddle = bits(&flags, STRADDLE);
-        survey.whole = bits(&flags, WHOLE) & survey.some & !survey.straddle;
-        survey
+        let zero = Eight::all(0.0);
+        let volume = volume.signed_as(volume);
+        let none = zero.below(outside).bits() | largest.below(zero).bits();
+        let front = zero.below(farthest).and(nearest.below(Eight::all(far))).and(zero.below(volume)).bits();
+        let some = front & !none & self.used;
+        let straddle = !farthest.below(Eight::all(near)).bits();
+        let whole = some & !straddle & !smallest.below(zero).bits();
+        Survey { edges, corners: [a, b, c], volume, some, whole, straddle }
     }
 
+    #[inline(always)]
     pub(crate) fn triangle(&self, lane: usize) -> [Vec3; 3] {
-        [0, 1, 2].map(|corner| Vec3::from_array([0, 1, 2].map(|axis| self.corners[corner][axis][lane])))
+        three(|corner| Vec3::from_array(three(|axis| self.corners[corner][axis].0[lane])))
     }
 }
 
+/// How the pictures of eight triangles lie on the rows.
+pub(crate) struct Sides {
+    /// Of each edge: slope and place of its line `x = slope y + at`, and the sign of its x.
+    pub(crate) slope: [Eight; 3],
+    pub(crate) at: [Eight; 3],
+    pub(crate) sign: [Eight; 3],
+    /// The least and the largest place across the rows; all of them for a triangle that reaches
+    /// behind the receiver.
+    pub(crate) low: Eight,
+    pub(crate) high: Eight,
+}
+
 impl Survey {
-    pub(crate) fn edges(&self, lane: usize) -> [Edge; 3] {
-        self.edges.map(|[a, b, c]| Edge { a: a[lane], b: b[lane], c: c[lane] })
+    /// The lines of the edges and the extent across the rows, of all eight.
+    #[inline(always)]
+    pub(crate) fn sides(&self, turn: &Turn) -> Sides {
+        let of = |i: usize| {
+            let [a, b, c] = self.edges[i];
+            let x = a * Eight::all(turn.xx) + b * Eight::all(turn.yx);
+            let y = a * Eight::all(turn.xy) + b * Eight::all(turn.yy);
+            // An edge along the rows becomes one that all but is.
+            let least = Eight::all(1e-12) * (y.abs() + c.abs()) + Eight::all(f32::MIN_POSITIVE);
+            let x = x.abs().max(least).signed_as(x);
+            let per = -(Eight::all(1.0) / x);
+            [y * per, c * per, x]
+        };
+        let [p, q, r] = three(of);
+        let [a, b, c] = three(|i| {
+            let [x, y, z] = self.corners[i];
+            [Eight::all(-turn.yx) * x + Eight::all(turn.yy) * y, z]
+        });
+        let (nearest, farthest) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
+        let [a, b, c] = [a[0] / a[1], b[0] / b[1], c[0] / c[1]];
+        let (mut low, mut high) = (a.min(b).min(c), a.max(b).max(c));
+        let behind = !(farthest * Eight::all(1e-6)).below(nearest).bits();
+        for k in 0..LANES {
+            low.0[k] = if behind >> k & 1 != 0 { -1e3 } else { low.0[k] };
+            high.0[k] = if behind >> k & 1 != 0 { 1e3 } else { high.0[k] };
+        }
+        Sides { slope: [p[0], q[0], r[0]], at: [p[1], q[1], r[1]], sign: [p[2], q[2], r[2]], low, high }
     }
 
     /// The plane's own form, for a triangle that crosses a flat light at a depth: nearer than that.
     pub(crate) fn nearer(&self, lane: usize, depth: f32) -> Edge {
-        let [a, b, c] = [0, 1, 2].map(|i| self.edges.iter().map(|edge| edge[i][lane]).sum::<f32>());
-        Edge { a, b, c: c - self.volume[lane] / depth }
-    }
-
-    /// The least and the largest of `p X + q Y` over the triangle's picture; `None` when it reaches
-    /// behind the receiver.
-    #[inline(always)]
-    pub(crate) fn extent(&self, lane: usize, [p, q]: [f32; 2]) -> Option<[f32; 2]> {
-        let [a, b, c] = self.corners.map(|[x, y, z]| [p * x[lane] + q * y[lane], z[lane]]);
-        let nearest = min3(a[1], b[1], c[1]);
-        let farthest = -min3(-a[1], -b[1], -c[1]);
-        if nearest <= 1e-6 * farthest {
-            return None;
-        }
-        let [a, b, c] = [a, b, c].map(|[y, z]| y / z);
-        Some([min3(a, b, c), -min3(-a, -b, -c)])
+        let [a, b, c] = three(|i| self.edges.iter().map(|edge| edge[i].0[lane]).sum::<f32>());
+        Edge { a, b, c: c - self.volume.0[lane] / depth }
     }
 }
 
 /// The cross product of sum and difference, halved: `from x to`, but it negates exactly when the
 /// ends change places. Nothing leaks between neighbours.
 #[inline(always)]
-fn edge(from: [f32; 3], to: [f32; 3]) -> [f32; 3] {
-    let s = [0, 1, 2].map(|i| 0.5 * (from[i] + to[i]));
-    let d = [0, 1, 2].map(|i| to[i] - from[i]);
+fn edge(from: &[Eight; 3], to: &[Eight; 3]) -> [Eight; 3] {
+    let s = three(|i| Eight::all(0.5) * (from[i] + to[i]));
+    let d = three(|i| to[i] - from[i]);
     [s[1] * d[2] - s[2] * d[1], s[2] * d[0] - s[0] * d[2], s[0] * d[1] - s[1] * d[0]]
 }
 
+/// `array::map`, which is not always inlined.
 #[inline(always)]
-fn min(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn max(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn min3(a: f32, b: f32, c: f32) -> f32 {
-    min(min(a, b), c)
-}
-
-#[inline(always)]
-fn bits(flags: &[u32; LANES], flag: u32) -> u32 {
-    let mut bits = [0u32; LANES];
-    for (k, bits) in bits.iter_mut().enumerate() {
-        *bits = if flags[k] & flag != 0 { 1 << k } else { 0 };
-    }
-    bits.iter().sum()
+fn three<T>(of: impl Fn(usize) -> T) -> [T; 3] {
+    [of(0), of(1), of(2)]
 }

@@ -8,13 +8,13 @@
 //! ratio whose bias is below 1e-4 at 1024 samples and falls with their number.
 
 use super::frame::{Frame, Turn};
-use super::outline::below;
+use super::eight::{Eight, LANES};
 use crate::aim::Aim;
 use crate::owen::{mix, unit};
 use crate::samples::LightSamples;
 
 /// Independent lattices, one in each lane; the first half of them is the first half of the truth.
-pub(crate) const REPLICATES: usize = 8;
+pub(crate) const REPLICATES: usize = LANES;
 /// Rows that a row rises by on a rectangle.
 pub(crate) const RISE: usize = 2;
 /// Samples that fit in the mask of a row.
@@ -32,11 +32,11 @@ pub(crate) struct Ruling {
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Row {
     /// Across the rows, in the frame's coordinate.
-    pub(crate) y: [f32; REPLICATES],
+    pub(crate) y: Eight,
     /// On a cone, the cosine of the row's angle.
-    pub(crate) cos: [f32; REPLICATES],
+    pub(crate) cos: Eight,
     /// Sample i stands at `(i + shift) / per_row` of the way from -1 to 1 times the half width.
-    pub(crate) shift: [f32; REPLICATES],
+    pub(crate) shift: Eight,
     inside: [u32; REPLICATES],
     pub(crate) hidden: [u32; REPLICATES],
 }
@@ -97,8 +97,12 @@ impl Ruling {
         // Rows that rise start below the light, rows that fall end above it.
         let first = if self.round || falls { 0.0 } else { -(RISE as f32) };
         let middle = if self.round { 0.0 } else { 0.5 * RISE as f32 * if falls { -1.0 } else { 1.0 } };
-        let keys = [0, 1, 2, 3, 4, 5, 6, 7].map(|lane: u64| mix(seed.wrapping_add((lane + 1) << 8)));
-        let common = keys.map(|key| unit(key as u32));
+        let mut keys = [0u64; REPLICATES];
+        let mut common = [0.0f32; REPLICATES];
+        for k in 0..REPLICATES {
+            keys[k] = mix(seed.wrapping_add((k as u64 + 1) << 8));
+            common[k] = unit(keys[k] as u32);
+        }
         for j in 0..self.rows + extra {
             let at = first + j as f32;
             // A row that leaves on one side comes back on the other: the same shift along it.
@@ -107,14 +111,14 @@ impl Ruling {
             for k in 0..REPLICATES {
                 // Two rows to a word.
                 let word = mix(keys[k] ^ (name as u64 >> 1) << 32);
-                row.shift[k] = unit(if name & 1 == 0 { word as u32 } else { (word >> 32) as u32 });
-                row.y[k] = 2.0 * (at + common[k] + middle) / n - 1.0;
+                row.shift.0[k] = unit(if name & 1 == 0 { word as u32 } else { (word >> 32) as u32 });
+                row.y.0[k] = 2.0 * (at + common[k] + middle) / n - 1.0;
             }
             if self.round {
                 self.within(&mut row, frame);
             } else {
                 for k in 0..REPLICATES {
-                    row.inside[k] = self.wrapped([at, common[k]], row.shift[k], falls);
+                    row.inside[k] = self.wrapped([at, common[k]], row.shift.0[k], falls);
                 }
             }
             lines.rows.push(row);
@@ -143,16 +147,21 @@ impl Ruling {
         match frame.cone {
             Some(cone) => {
                 for k in 0..REPLICATES {
-                    [row.y[k], row.cos[k], reach[k]] = cone.row(row.y[k]);
+                    [row.y.0[k], row.cos.0[k], reach[k]] = cone.row(row.y.0[k]);
                 }
             }
-            None => reach = row.y.map(|y| 1.0 - y * y),
+            None => {
+                for k in 0..REPLICATES {
+                    reach[k] = 1.0 - row.y.0[k] * row.y.0[k];
+                }
+            }
         }
-        let half = 0.5 * self.per_row as f32;
+        let half = Eight::all(0.5 * self.per_row as f32);
+        let wide = Eight(reach).max(Eight::all(0.0)).sqrt() * half;
+        let centre = half - row.shift;
+        let (to, from) = ((centre + wide).before(), (centre - wide).before());
         for k in 0..REPLICATES {
-            let wide = if reach[k] > 0.0 { reach[k] } else { 0.0 }.sqrt() * half;
-            let centre = half - row.shift[k];
-            row.inside[k] = below(centre + wide) & !below(centre - wide);
+            row.inside[k] = to[k] & !from[k];
         }
     }
 }
@@ -206,8 +215,8 @@ impl Lines {
                 while open != 0 {
                     let i = open.trailing_zeros();
                     open &= open - 1;
-                    let along = 2.0 * (i as f32 + row.shift[k]) / self.per_row - 1.0;
-                    let [x, y] = frame.place(turn, along, [row.y[k], row.cos[k]]);
+                    let along = 2.0 * (i as f32 + row.shift.0[k]) / self.per_row - 1.0;
+                    let [x, y] = frame.place(turn, along, [row.y.0[k], row.cos.0[k]]);
                     one.set_place(aim, [x, y]);
                     if hidden(one) {
                         row.hidden[k] |= 1 << i;

@@ -6,6 +6,7 @@
 //! a function of its place alone: a longer list of candidates covers the same bits.
 
 mod blocks;
+mod eight;
 mod frame;
 mod lines;
 mod outline;
@@ -20,10 +21,11 @@ use crate::truth::{Method, PointTruth, Scratch, Sight, Task};
 use crate::{Points, TruthSettings};
 use glam::Vec3;
 use blocks::Blocks;
+use eight::LANES;
 use frame::{Frame, Turn};
 use lines::{Lines, REPLICATES, Ruling};
 use outline::{Edge, Outline, rows_between};
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::ops::Range;
 use umbrage_scene::AreaLight;
@@ -49,7 +51,7 @@ pub(crate) fn truth(task: &Task, points: &Points) -> Vec<PointTruth> {
         .into_par_iter()
         .map_init(Desk::default, |desk, range| {
             // Compiled for the widest registers that there are; the same bits with any.
-            Arch::new().dispatch(|| group(task, &rulings, points, &order[range], desk))
+            Arch::new().dispatch(Group { task, rulings: &rulings, points, order: &order[range], desk })
         })
         .collect();
     let mut each = vec![PointTruth::exact(1.0, false); points.len()];
@@ -125,6 +127,24 @@ fn spread(word: u64) -> u64 {
     w = (w | w << 8) & 0x100f_00f0_0f00_f00f;
     w = (w | w << 4) & 0x10c3_0c30_c30c_30c3;
     (w | w << 2) & 0x1249_2492_4924_9249
+}
+
+/// Receivers near each other.
+struct Group<'a> {
+    task: &'a Task<'a>,
+    rulings: &'a Rulings,
+    points: &'a Points,
+    order: &'a [u32],
+    desk: &'a mut Desk,
+}
+
+impl WithSimd for Group<'_> {
+    type Output = Vec<PointTruth>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Vec<PointTruth> {
+        group(self.task, self.rulings, self.points, self.order, self.desk)
+    }
 }
 
 #[inline(always)]
@@ -247,18 +267,19 @@ fn look(
     let eights = desk.blocks.eights();
     for step in 0..=eights {
         let (eight, mut between) = if step == 0 {
-            (first / blocks::LANES, u32::from(count > 0) << (first % blocks::LANES))
+            (first / LANES, u32::from(count > 0) << (first % LANES))
         } else {
             (step - 1, desk.blocks.between(frame, step - 1))
         };
         while between != 0 {
-            let at = eight * blocks::LANES + between.trailing_zeros() as usize;
+            let at = eight * LANES + between.trailing_zeros() as usize;
             between &= between - 1;
             if step > 0 && at == first {
                 continue;
             }
             let block = &desk.blocks.blocks[at];
             let survey = block.survey(frame);
+            let mut sides = None;
             let mut some = survey.some;
             while some != 0 {
                 let lane = some.trailing_zeros() as usize;
@@ -281,16 +302,9 @@ fn look(
                         rays::crosses(surfaces, (receiver, aim), samples, slot)
                     });
                 } else {
-                    // Across the rows: what the turn makes y of.
-                    let across = [-turn.yx, turn.yy];
-                    let rows = match survey.extent(lane, across) {
-                        Some(places) => rows_between(frame, ruling, places),
-                        None => Outline::ALL_ROWS,
-                    };
-                    let mut outline = Outline::new(rows);
-                    for edge in survey.edges(lane) {
-                        outline.add(turn, edge);
-                    }
+                    let sides = sides.get_or_insert_with(|| survey.sides(turn));
+                    let rows = rows_between(frame, ruling, [sides.low.0[lane], sides.high.0[lane]]);
+                    let mut outline = Outline::triangle(sides, lane, rows);
                     if straddles {
                         outline.add(turn, survey.nearer(lane, frame.depth[0]));
                     }

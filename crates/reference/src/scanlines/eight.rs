@@ -1,0 +1,140 @@
+//! Eight numbers that go the same way. Each operation is a loop over lanes that compiles to wide
+//! registers where the caller is compiled for them.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+pub(crate) const LANES: usize = 8;
+
+#[derive(Clone, Copy, Default)]
+#[repr(align(32))]
+pub(crate) struct Eight(pub(crate) [f32; LANES]);
+
+/// All bits of a lane set, or none.
+#[derive(Clone, Copy)]
+#[repr(align(32))]
+pub(crate) struct Mask([u32; LANES]);
+
+macro_rules! each {
+    ($op:ident, $name:ident, $sign:tt) => {
+        impl $op for Eight {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                let mut out = [0.0; LANES];
+                for k in 0..LANES {
+                    out[k] = self.0[k] $sign other.0[k];
+                }
+                Self(out)
+            }
+        }
+    };
+}
+each!(Add, add, +);
+each!(Sub, sub, -);
+each!(Mul, mul, *);
+each!(Div, div, /);
+
+impl Neg for Eight {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(|a| -a)
+    }
+}
+
+impl Eight {
+    #[inline(always)]
+    pub(crate) fn all(value: f32) -> Self {
+        Self([value; LANES])
+    }
+
+    #[inline(always)]
+    fn map(self, of: impl Fn(f32) -> f32) -> Self {
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            out[k] = of(self.0[k]);
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
+    pub(crate) fn abs(self) -> Self {
+        self.map(f32::abs)
+    }
+
+    #[inline(always)]
+    pub(crate) fn sqrt(self) -> Self {
+        self.map(f32::sqrt)
+    }
+
+    #[inline(always)]
+    pub(crate) fn min(self, other: Self) -> Self {
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            out[k] = if self.0[k] < other.0[k] { self.0[k] } else { other.0[k] };
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
+    pub(crate) fn max(self, other: Self) -> Self {
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            out[k] = if self.0[k] > other.0[k] { self.0[k] } else { other.0[k] };
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
+    pub(crate) fn below(self, other: Self) -> Mask {
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            out[k] = if self.0[k] < other.0[k] { u32::MAX } else { 0 };
+        }
+        Mask(out)
+    }
+
+    /// This, negated where `sign` is negative.
+    #[inline(always)]
+    pub(crate) fn signed_as(self, sign: Self) -> Self {
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            out[k] = f32::from_bits(self.0[k].to_bits() ^ (sign.0[k].to_bits() & 0x8000_0000));
+        }
+        Self(out)
+    }
+
+    /// The number of samples before each place, as the lowest bits of a mask.
+    #[inline(always)]
+    pub(crate) fn before(self) -> [u32; LANES] {
+        let place = self.max(Self::all(0.0)).min(Self::all(32.0)).map(f32::ceil);
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            // The sum's lowest bits are the number.
+            let number = (place.0[k] + 8_388_608.0).to_bits() & 0x3f;
+            out[k] = 1u32.unbounded_shl(number).wrapping_sub(1);
+        }
+        out
+    }
+}
+
+impl Mask {
+    #[inline(always)]
+    pub(crate) fn and(self, other: Self) -> Self {
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            out[k] = self.0[k] & other.0[k];
+        }
+        Self(out)
+    }
+
+    /// A bit for each lane.
+    #[inline(always)]
+    pub(crate) fn bits(self) -> u32 {
+        let mut out = 0;
+        for k in 0..LANES {
+            out |= self.0[k] & 1 << k;
+        }
+        out
+    }
+}
