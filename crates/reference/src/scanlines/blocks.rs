@@ -5,6 +5,27 @@ use super::frame::{Frame, Turn};
 use super::outline::{Edge, MARGIN};
 use glam::Vec3;
 
+/// An expression of 0, 1 and 2. Closures are not always inlined, and what is not inlined is compiled
+/// for narrow registers.
+macro_rules! three {
+    ($i:ident => $value:expr) => {
+        [
+            {
+                let $i = 0usize;
+                $value
+            },
+            {
+                let $i = 1usize;
+                $value
+            },
+            {
+                let $i = 2usize;
+                $value
+            },
+        ]
+    };
+}
+
 /// Eight triangles, or fewer: the last lanes repeat one.
 #[derive(Clone, Copy)]
 pub(crate) struct Block {
@@ -99,15 +120,12 @@ impl Blocks {
         let p = frame.place[0];
         let m = &frame.light_from_world;
         let (x, y, z) = (m.row(0), m.row(1), m.row(2));
-        let d = three(|axis| boxes.centre[axis] - Eight::all(p[axis]));
+        let d = three!(axis => boxes.centre[axis] - Eight::all(p[axis]));
         // Twenty roundings of f32 are below 2e-6.
-        let h = three(|axis| {
-            boxes.half[axis] + Eight::all(2e-6) * (d[axis].abs() + boxes.half[axis])
-        });
-        let dot = |n: Vec3, v: &[Eight; 3]| Eight::all(n.x) * v[0] + Eight::all(n.y) * v[1] + Eight::all(n.z) * v[2];
-        let most = |n: Vec3| dot(n, &d) + dot(n.abs(), &h);
+        let h = three!(axis => boxes.half[axis] + Eight::all(2e-6) * (d[axis].abs() + boxes.half[axis]));
         // Inside, Z is positive and as large as X and Y; the light ends before the last depth.
-        let least = most(z - x).min(most(z + x)).min(most(z - y)).min(most(z + y)).min(most(z));
+        let least = most(z - x, &d, &h).min(most(z + x, &d, &h));
+        let least = least.min(most(z - y, &d, &h)).min(most(z + y, &d, &h)).min(most(z, &d, &h));
         let nearest = dot(z, &d) - dot(z.abs(), &h);
         let off = least.below(Eight::all(0.0)).bits();
         let near = nearest.below(Eight::all(frame.depth[1])).bits();
@@ -122,27 +140,27 @@ impl Block {
         let [high, low] = frame.place;
         let m = frame.light_from_world.to_cols_array_2d();
         let [near, far] = frame.depth;
-        let corner = |i: usize| {
-            let d = three(|axis| (self.corners[i][axis] - Eight::all(high[axis])) - Eight::all(low[axis]));
-            three(|row| {
-                Eight::all(m[0][row]) * d[0] + Eight::all(m[1][row]) * d[1] + Eight::all(m[2][row]) * d[2]
-            })
-        };
-        let [a, b, c] = three(corner);
+        let high = three!(axis => Eight::all(high[axis]));
+        let low = three!(axis => Eight::all(low[axis]));
+        let m = three!(column => three!(row => Eight::all(m[column][row])));
+        let [a, b, c] = three!(i => {
+            let d = three!(axis => (self.corners[i][axis] - high[axis]) - low[axis]);
+            three!(row => m[0][row] * d[0] + m[1][row] * d[1] + m[2][row] * d[2])
+        });
         let nearest = a[2].min(b[2]).min(c[2]);
         let farthest = a[2].max(b[2]).max(c[2]);
         // Off the light on one side: X, -X, Y or -Y is larger than Z at every corner.
         let wide = Eight::all(1.0 + MARGIN);
         let reach = [a[2] * wide, b[2] * wide, c[2] * wide];
-        let least = |axis: usize| {
+        let outside = three!(axis => {
             let beyond = (a[axis] - reach[0]).min(b[axis] - reach[1]).min(c[axis] - reach[2]);
             let before = (a[axis] + reach[0]).max(b[axis] + reach[1]).max(c[axis] + reach[2]);
             beyond.max(-before)
-        };
-        let outside = least(0).max(least(1));
+        });
+        let outside = outside[0].max(outside[1]);
         let normals = [edge(&b, &c), edge(&c, &a), edge(&a, &b)];
         let volume = a[0] * normals[0][0] + a[1] * normals[0][1] + a[2] * normals[0][2];
-        let edges = three(|i| three(|j| normals[i][j].signed_as(volume)));
+        let edges = three!(i => three!(j => normals[i][j].signed_as(volume)));
         // An edge's least and largest value on the light.
         let mut smallest = Eight::all(f32::INFINITY);
         let mut largest = Eight::all(f32::INFINITY);
@@ -163,7 +181,7 @@ impl Block {
 
     #[inline(always)]
     pub(crate) fn triangle(&self, lane: usize) -> [Vec3; 3] {
-        three(|corner| Vec3::from_array(three(|axis| self.corners[corner][axis].0[lane])))
+        three!(corner => Vec3::from_array(three!(axis => self.corners[corner][axis].0[lane])))
     }
 }
 
@@ -183,7 +201,7 @@ impl Survey {
     /// The lines of the edges and the extent across the rows, of all eight.
     #[inline(always)]
     pub(crate) fn sides(&self, turn: &Turn) -> Sides {
-        let of = |i: usize| {
+        let [p, q, r] = three!(i => {
             let [a, b, c] = self.edges[i];
             let x = a * Eight::all(turn.xx) + b * Eight::all(turn.yx);
             let y = a * Eight::all(turn.xy) + b * Eight::all(turn.yy);
@@ -192,9 +210,8 @@ impl Survey {
             let x = x.abs().max(least).signed_as(x);
             let per = -(Eight::all(1.0) / x);
             [y * per, c * per, x]
-        };
-        let [p, q, r] = three(of);
-        let [a, b, c] = three(|i| {
+        });
+        let [a, b, c] = three!(i => {
             let [x, y, z] = self.corners[i];
             [Eight::all(-turn.yx) * x + Eight::all(turn.yy) * y, z]
         });
@@ -211,22 +228,28 @@ impl Survey {
 
     /// The plane's own form, for a triangle that crosses a flat light at a depth: nearer than that.
     pub(crate) fn nearer(&self, lane: usize, depth: f32) -> Edge {
-        let [a, b, c] = three(|i| self.edges.iter().map(|edge| edge[i].0[lane]).sum::<f32>());
+        let [a, b, c] = three!(i => self.edges[0][i].0[lane] + self.edges[1][i].0[lane] + self.edges[2][i].0[lane]);
         Edge { a, b, c: c - self.volume.0[lane] / depth }
     }
+}
+
+#[inline(always)]
+fn dot(n: Vec3, v: &[Eight; 3]) -> Eight {
+    Eight::all(n.x) * v[0] + Eight::all(n.y) * v[1] + Eight::all(n.z) * v[2]
+}
+
+/// The largest height of a box over a plane through the receiver.
+#[inline(always)]
+fn most(n: Vec3, centre: &[Eight; 3], half: &[Eight; 3]) -> Eight {
+    dot(n, centre) + dot(n.abs(), half)
 }
 
 /// The cross product of sum and difference, halved: `from x to`, but it negates exactly when the
 /// ends change places. Nothing leaks between neighbours.
 #[inline(always)]
 fn edge(from: &[Eight; 3], to: &[Eight; 3]) -> [Eight; 3] {
-    let s = three(|i| Eight::all(0.5) * (from[i] + to[i]));
-    let d = three(|i| to[i] - from[i]);
+    let s = three!(i => Eight::all(0.5) * (from[i] + to[i]));
+    let d = three!(i => to[i] - from[i]);
     [s[1] * d[2] - s[2] * d[1], s[2] * d[0] - s[0] * d[2], s[0] * d[1] - s[1] * d[0]]
 }
 
-/// `array::map`, which is not always inlined.
-#[inline(always)]
-fn three<T>(of: impl Fn(usize) -> T) -> [T; 3] {
-    [of(0), of(1), of(2)]
-}

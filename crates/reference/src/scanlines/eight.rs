@@ -14,6 +14,18 @@ pub(crate) struct Eight(pub(crate) [f32; LANES]);
 #[repr(align(32))]
 pub(crate) struct Mask([u32; LANES]);
 
+macro_rules! each_lane {
+    ($lanes:expr, $a:ident => $value:expr) => {{
+        let lanes = $lanes;
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            let $a = lanes[k];
+            out[k] = $value;
+        }
+        Self(out)
+    }};
+}
+
 macro_rules! each {
     ($op:ident, $name:ident, $sign:tt) => {
         impl $op for Eight {
@@ -38,7 +50,7 @@ impl Neg for Eight {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(|a| -a)
+        each_lane!(self.0, a => -a)
     }
 }
 
@@ -49,22 +61,13 @@ impl Eight {
     }
 
     #[inline(always)]
-    fn map(self, of: impl Fn(f32) -> f32) -> Self {
-        let mut out = [0.0; LANES];
-        for k in 0..LANES {
-            out[k] = of(self.0[k]);
-        }
-        Self(out)
-    }
-
-    #[inline(always)]
     pub(crate) fn abs(self) -> Self {
-        self.map(f32::abs)
+        each_lane!(self.0, a => a.abs())
     }
 
     #[inline(always)]
     pub(crate) fn sqrt(self) -> Self {
-        self.map(f32::sqrt)
+        each_lane!(self.0, a => a.sqrt())
     }
 
     #[inline(always)]
@@ -107,7 +110,8 @@ impl Eight {
     /// The number of samples before each place, as the lowest bits of a mask.
     #[inline(always)]
     pub(crate) fn before(self) -> [u32; LANES] {
-        let place = self.max(Self::all(0.0)).min(Self::all(32.0)).map(f32::ceil);
+        let place = self.max(Self::all(0.0)).min(Self::all(32.0));
+        let place = each_lane!(place.0, a => a.ceil());
         let mut out = [0; LANES];
         for k in 0..LANES {
             // The sum's lowest bits are the number.

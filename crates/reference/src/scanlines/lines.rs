@@ -93,7 +93,7 @@ impl Ruling {
         let falls = turn.yx < 0.0;
         let (n, m) = (self.rows as f32, self.per_row as f32);
         lines.per_row = m;
-        lines.rows.clear();
+        lines.rows.resize(self.rows + extra, Row::default());
         // Rows that rise start below the light, rows that fall end above it.
         let first = if self.round || falls { 0.0 } else { -(RISE as f32) };
         let middle = if self.round { 0.0 } else { 0.5 * RISE as f32 * if falls { -1.0 } else { 1.0 } };
@@ -103,11 +103,11 @@ impl Ruling {
             keys[k] = mix(seed.wrapping_add((k as u64 + 1) << 8));
             common[k] = unit(keys[k] as u32);
         }
-        for j in 0..self.rows + extra {
+        for (j, row) in lines.rows.iter_mut().enumerate() {
             let at = first + j as f32;
             // A row that leaves on one side comes back on the other: the same shift along it.
             let name = if falls || self.round { j } else { j + self.rows - RISE } % self.rows;
-            let mut row = Row::default();
+            row.hidden = [0; REPLICATES];
             for k in 0..REPLICATES {
                 // Two rows to a word.
                 let word = mix(keys[k] ^ (name as u64 >> 1) << 32);
@@ -115,13 +115,12 @@ impl Ruling {
                 row.y.0[k] = 2.0 * (at + common[k] + middle) / n - 1.0;
             }
             if self.round {
-                self.within(&mut row, frame);
+                self.within(row, frame);
             } else {
                 for k in 0..REPLICATES {
                     row.inside[k] = self.wrapped([at, common[k]], row.shift.0[k], falls);
                 }
             }
-            lines.rows.push(row);
         }
     }
 

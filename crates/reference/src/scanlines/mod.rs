@@ -20,7 +20,7 @@ use crate::samples::{LightSamples, seed};
 use crate::truth::{Method, PointTruth, Scratch, Sight, Task};
 use crate::{Points, TruthSettings};
 use glam::Vec3;
-use blocks::Blocks;
+use blocks::{Blocks, Survey};
 use eight::LANES;
 use frame::{Frame, Turn};
 use lines::{Lines, REPLICATES, Ruling};
@@ -38,6 +38,7 @@ const TOGETHER: usize = 64;
 struct Desk {
     scratch: Scratch,
     blocks: Blocks,
+    surveys: Vec<(usize, Survey)>,
     open: Vec<u32>,
     lines: Lines,
     samples: LightSamples,
@@ -259,17 +260,16 @@ fn look(
         lines.trace((frame, turn, aim), &mut desk.samples, hidden);
         return Sight::Sampled;
     }
-    let count = desk.blocks.blocks.len();
-    // What hid the neighbour comes first.
+    // What hides the whole light comes before any sample, first of all the block that hid it from the
+    // neighbour.
+    let blocks = &desk.blocks;
+    desk.surveys.clear();
+    let count = blocks.blocks.len();
     let first = if *last < count { *last } else { 0 };
-    let mut covered = 0;
-    // The block that hid the neighbour, then all.
-    let eights = desk.blocks.eights();
-    for step in 0..=eights {
-        let (eight, mut between) = if step == 0 {
-            (first / LANES, u32::from(count > 0) << (first % LANES))
-        } else {
-            (step - 1, desk.blocks.between(frame, step - 1))
+    for step in 0..=blocks.eights() {
+        let (eight, mut between) = match step {
+            0 => (first / LANES, u32::from(count > 0) << (first % LANES)),
+            _ => (step - 1, blocks.between(frame, step - 1)),
         };
         while between != 0 {
             let at = eight * LANES + between.trailing_zeros() as usize;
@@ -277,46 +277,56 @@ fn look(
             if step > 0 && at == first {
                 continue;
             }
-            let block = &desk.blocks.blocks[at];
-            let survey = block.survey(frame);
-            let mut sides = None;
+            let block = &blocks.blocks[at];
+            let mut survey = block.survey(frame);
             let mut some = survey.some;
             while some != 0 {
                 let lane = some.trailing_zeros() as usize;
                 some &= some - 1;
-                let slot = block.slots[lane];
-                if receiver.skips(slot, &block.triangle(lane)) {
-                    continue;
-                }
-                if survey.whole >> lane & 1 != 0 {
+                let (slot, corners) = (block.slots[lane], block.triangle(lane));
+                if !receiver.rises_clearly(slot, &corners) && receiver.skips(slot, &corners) {
+                    survey.some &= !(1 << lane);
+                } else if survey.whole >> lane & 1 != 0 {
                     *last = at;
                     return Sight::Hidden;
                 }
-                if !drawn {
-                    ruling.fill(lines, frame, turn, seed);
-                    drawn = true;
-                }
-                let straddles = survey.straddle >> lane & 1 != 0;
-                if straddles && !frame.flat {
-                    lines.trace((frame, turn, aim), &mut desk.samples, |samples| {
-                        rays::crosses(surfaces, (receiver, aim), samples, slot)
-                    });
-                } else {
-                    let sides = sides.get_or_insert_with(|| survey.sides(turn));
-                    let rows = rows_between(frame, ruling, [sides.low.0[lane], sides.high.0[lane]]);
-                    let mut outline = Outline::triangle(sides, lane, rows);
-                    if straddles {
-                        outline.add(turn, survey.nearer(lane, frame.depth[0]));
-                    }
-                    outline.cover(lines, frame);
-                }
-                covered += 1;
             }
-            if covered > 0 && lines.full() {
-                *last = at;
-                return Sight::Sampled;
+            if survey.some != 0 {
+                desk.surveys.push((at, survey));
             }
         }
     }
-    if drawn { Sight::Sampled } else { Sight::Lit }
+    if desk.surveys.is_empty() {
+        return if drawn { Sight::Sampled } else { Sight::Lit };
+    }
+    if !drawn {
+        ruling.fill(lines, frame, turn, seed);
+    }
+    for (at, survey) in &desk.surveys {
+        let sides = survey.sides(turn);
+        let mut some = survey.some;
+        while some != 0 {
+            let lane = some.trailing_zeros() as usize;
+            some &= some - 1;
+            let straddles = survey.straddle >> lane & 1 != 0;
+            if straddles && !frame.flat {
+                let slot = blocks.blocks[*at].slots[lane];
+                lines.trace((frame, turn, aim), &mut desk.samples, |samples| {
+                    rays::crosses(surfaces, (receiver, aim), samples, slot)
+                });
+                continue;
+            }
+            let rows = rows_between(frame, ruling, [sides.low.0[lane], sides.high.0[lane]]);
+            let mut outline = Outline::triangle(&sides, lane, rows);
+            if straddles {
+                outline.add(turn, survey.nearer(lane, frame.depth[0]));
+            }
+            outline.cover(lines, frame);
+        }
+        if lines.full() {
+            *last = *at;
+            break;
+        }
+    }
+    Sight::Sampled
 }

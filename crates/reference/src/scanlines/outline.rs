@@ -5,7 +5,7 @@
 use super::blocks::Sides;
 use super::eight::Eight;
 use super::frame::{Frame, Turn};
-use super::lines::{Lines, Ruling};
+use super::lines::{Lines, Row, Ruling};
 
 /// Rounding of a place on the light, in half widths, that bounds are widened by: f32's 2^-24 times a
 /// handful of operations.
@@ -79,12 +79,11 @@ impl Outline {
         let half = Eight::all(0.5 * lines.per_row);
         let crowded = self.lows.max(self.highs) > 2;
         for row in &mut lines.rows[range] {
-            let at = |side: Side| Eight::all(side[0]) * row.y + Eight::all(side[1]);
-            let mut from = at(self.low[0]).max(at(self.low[1]));
-            let mut to = at(self.high[0]).min(at(self.high[1]));
+            let mut from = at(row, self.low[0]).max(at(row, self.low[1]));
+            let mut to = at(row, self.high[0]).min(at(row, self.high[1]));
             if crowded {
-                from = from.max(at(self.low[2])).max(at(self.low[3]));
-                to = to.min(at(self.high[2])).min(at(self.high[3]));
+                from = from.max(at(row, self.low[2])).max(at(row, self.low[3]));
+                to = to.min(at(row, self.high[2])).min(at(row, self.high[3]));
             }
             if let Some(cone) = &frame.cone {
                 from = cone.along(from, row.cos);
@@ -100,6 +99,11 @@ impl Outline {
     }
 }
 
+#[inline(always)]
+fn at(row: &Row, [slope, at]: Side) -> Eight {
+    Eight::all(slope) * row.y + Eight::all(at)
+}
+
 /// Rows that a picture between two places across them may touch.
 #[inline(always)]
 pub(crate) fn rows_between(frame: &Frame, ruling: &Ruling, places: [f32; 2]) -> [usize; 2] {
@@ -109,8 +113,8 @@ pub(crate) fn rows_between(frame: &Frame, ruling: &Ruling, places: [f32; 2]) -> 
     };
     let half = 0.5 * ruling.rows as f32;
     // Row j of a replicate stands between j and j + 1.
-    let row = |y: f32| (y + 1.0) * half + ruling.before();
-    let first = (row(low) - 1.0 - MARGIN * half).clamp(0.0, 1e3) as i32;
-    let last = (row(high) + MARGIN * half + 1.0).clamp(0.0, 1e3) as i32;
+    let middle = half + ruling.before();
+    let first = (low * half + (middle - 1.0 - MARGIN * half)).clamp(0.0, 1e3) as i32;
+    let last = (high * half + (middle + 1.0 + MARGIN * half)).clamp(0.0, 1e3) as i32;
     [first as usize, last as usize]
 }
