@@ -55,17 +55,6 @@ impl Receiver {
         self.slot == Some(slot) || (self.normal != DVec3::ZERO && !corners.iter().any(|&v| self.rises(v)))
     }
 
-    /// Whether a triangle surely can: a test in f32 that settles nearly all. Its own rounding is eight
-    /// times 2^-24 of the coordinates.
-    #[inline(always)]
-    pub(crate) fn rises_clearly(&self, slot: u32, corners: &[Vec3; 3]) -> bool {
-        let (place, normal) = (self.position.as_vec3(), self.normal.as_vec3());
-        let [a, b, c] = [corners[0] - place, corners[1] - place, corners[2] - place];
-        let height = normal.dot(a).max(normal.dot(b)).max(normal.dot(c));
-        let extent = place.abs().max(corners[0].abs()).max(corners[1].abs()).max(corners[2].abs());
-        self.slot != Some(slot) && height > 2e-6 * extent.element_sum()
-    }
-
     fn rises(&self, vertex: Vec3) -> bool {
         let vertex = vertex.as_dvec3();
         let rounding = COPLANAR * self.normal.abs().dot(vertex.abs().max(self.position.abs()));

@@ -1,8 +1,9 @@
 //! Triangles in eights, tested against a light together.
 
-use super::eight::{Eight, LANES};
+use super::eight::{Eight, LANES, bytes};
 use super::frame::{Frame, Turn};
-use super::outline::{Edge, MARGIN};
+use super::lines::Ruling;
+use super::outline::{BEYOND, Edge, MARGIN};
 use glam::Vec3;
 
 /// An expression of 0, 1 and 2. Closures are not always inlined, and what is not inlined is compiled
@@ -63,6 +64,8 @@ pub(crate) struct Survey {
     pub(crate) some: u32,
     pub(crate) whole: u32,
     pub(crate) straddle: u32,
+    /// Those that may be the receiver's own, in its plane or below its horizon.
+    pub(crate) doubtful: u32,
 }
 
 impl Blocks {
@@ -127,8 +130,9 @@ impl Blocks {
         let least = most(z - x, &d, &h).min(most(z + x, &d, &h));
         let least = least.min(most(z - y, &d, &h)).min(most(z + y, &d, &h)).min(most(z, &d, &h));
         let nearest = dot(z, &d) - dot(z.abs(), &h);
-        let off = least.below(Eight::all(0.0)).bits();
-        let near = nearest.below(Eight::all(frame.depth[1])).bits();
+        let off = least.below(Eight::all(0.0));
+        let near = nearest.below(Eight::all(frame.depth[1]));
+        let [off, near, ..] = bytes([off, near, near, near]);
         let blocks = (self.blocks.len() - eight * LANES).min(LANES);
         !off & near & 0xff >> (LANES - blocks)
     }
@@ -137,16 +141,22 @@ impl Blocks {
 impl Block {
     #[inline(always)]
     pub(crate) fn survey(&self, frame: &Frame) -> Survey {
+        let zero = Eight::all(0.0);
         let [high, low] = frame.place;
         let m = frame.light_from_world.to_cols_array_2d();
         let [near, far] = frame.depth;
         let high = three!(axis => Eight::all(high[axis]));
         let low = three!(axis => Eight::all(low[axis]));
         let m = three!(column => three!(row => Eight::all(m[column][row])));
-        let [a, b, c] = three!(i => {
-            let d = three!(axis => (self.corners[i][axis] - high[axis]) - low[axis]);
-            three!(row => m[0][row] * d[0] + m[1][row] * d[1] + m[2][row] * d[2])
+        let d = three!(i => three!(axis => (self.corners[i][axis] - high[axis]) - low[axis]));
+        let [a, b, c] = three!(i => three!(row => m[0][row] * d[i][0] + m[1][row] * d[i][1] + m[2][row] * d[i][2]));
+        // A corner surely above the horizon: f32 rounds eight times by 2^-24 of the coordinates.
+        let clear = three!(i => {
+            let [x, y, z] = d[i];
+            let extent = Eight::all(frame.extent) + x.abs() + y.abs() + z.abs();
+            dot(frame.normal, &d[i]) - Eight::all(2e-6) * extent
         });
+        let clear = zero.below(clear[0].max(clear[1]).max(clear[2]));
         let nearest = a[2].min(b[2]).min(c[2]);
         let farthest = a[2].max(b[2]).max(c[2]);
         // Off the light on one side: X, -X, Y or -Y is larger than Z at every corner.
@@ -169,14 +179,27 @@ impl Block {
             smallest = smallest.min(*c - reach);
             largest = largest.min(*c + reach);
         }
-        let zero = Eight::all(0.0);
         let volume = volume.signed_as(volume);
-        let none = zero.below(outside).bits() | largest.below(zero).bits();
-        let front = zero.below(farthest).and(nearest.below(Eight::all(far))).and(zero.below(volume)).bits();
-        let some = front & !none & self.used;
-        let straddle = !farthest.below(Eight::all(near)).bits();
-        let whole = some & !straddle & !smallest.below(zero).bits();
-        Survey { edges, corners: [a, b, c], volume, some, whole, straddle }
+        let mut before = farthest.below(Eight::all(near));
+        if frame.flat {
+            // The same of the plane's depth: its least and largest excess over the light's.
+            let [a, b, c] = three!(j => edges[0][j] + edges[1][j] + edges[2][j]);
+            let reach = if frame.round { (a * a + b * b).sqrt() } else { a.abs() + b.abs() };
+            let excess = c - volume * Eight::all(1.0 / near);
+            largest = largest.min(excess + reach);
+            before = before.or(zero.below(excess - reach));
+        }
+        let off = zero.below(outside).or(largest.below(zero));
+        let front = zero.below(farthest).and(nearest.below(Eight::all(far))).and(zero.below(volume));
+        let [some, before, partly, clear] = bytes([
+            front.and(off.not()),
+            before,
+            smallest.below(zero),
+            clear,
+        ]);
+        let some = some & self.used;
+        let whole = some & before & !partly;
+        Survey { edges, corners: [a, b, c], volume, some, whole, straddle: some & !before, doubtful: some & !clear }
     }
 
     #[inline(always)]
@@ -187,21 +210,24 @@ impl Block {
 
 /// How the pictures of eight triangles lie on the rows.
 pub(crate) struct Sides {
-    /// Of each edge: slope and place of its line `x = slope y + at`, and the sign of its x.
+    /// Slope and place of the lines `x = slope y + at`: of an edge on the left, of one on the right,
+    /// and of the third.
     pub(crate) slope: [Eight; 3],
     pub(crate) at: [Eight; 3],
-    pub(crate) sign: [Eight; 3],
-    /// The least and the largest place across the rows; all of them for a triangle that reaches
-    /// behind the receiver.
-    pub(crate) low: Eight,
-    pub(crate) high: Eight,
+    /// Beyond all rows on the right where the third is on the left, and the other way round.
+    pub(crate) third: Eight,
+    /// Rows that may be touched: the first, and the one after the last.
+    pub(crate) rows: [[u32; LANES]; 2],
+    /// A bit for each triangle all of whose edges are on one side: it reaches behind the receiver.
+    pub(crate) open: u32,
 }
 
 impl Survey {
     /// The lines of the edges and the extent across the rows, of all eight.
     #[inline(always)]
-    pub(crate) fn sides(&self, turn: &Turn) -> Sides {
-        let [p, q, r] = three!(i => {
+    pub(crate) fn sides(&self, frame: &Frame, ruling: &Ruling, turn: &Turn) -> Sides {
+        let zero = Eight::all(0.0);
+        let lines = three!(i => {
             let [a, b, c] = self.edges[i];
             let x = a * Eight::all(turn.xx) + b * Eight::all(turn.yx);
             let y = a * Eight::all(turn.xy) + b * Eight::all(turn.yy);
@@ -209,21 +235,50 @@ impl Survey {
             let least = Eight::all(1e-12) * (y.abs() + c.abs()) + Eight::all(f32::MIN_POSITIVE);
             let x = x.abs().max(least).signed_as(x);
             let per = -(Eight::all(1.0) / x);
-            [y * per, c * per, x]
+            ([y * per, c * per], zero.below(x))
         });
+        let [([a, a_at], a_left), ([b, b_at], b_left), ([c, c_at], c_left)] = lines;
+        let same = a_left.same(b_left);
+        let slope = [a_left.pick(a, b_left.pick(b, c)), a_left.pick(b_left.pick(c, b), a), same.pick(b, c)];
+        let at = [
+            a_left.pick(a_at, b_left.pick(b_at, c_at)),
+            a_left.pick(b_left.pick(c_at, b_at), a_at),
+            same.pick(b_at, c_at),
+        ];
+        let beyond = Eight::all(BEYOND);
+        let third = same.pick(b_left.pick(beyond, -beyond), c_left.pick(beyond, -beyond));
+        let open = same.and(b_left.same(c_left)).bits();
+        Sides { slope, at, third, rows: self.rows(frame, ruling, turn), open }
+    }
+
+    #[inline(always)]
+    fn rows(&self, frame: &Frame, ruling: &Ruling, turn: &Turn) -> [[u32; LANES]; 2] {
         let [a, b, c] = three!(i => {
             let [x, y, z] = self.corners[i];
             [Eight::all(-turn.yx) * x + Eight::all(turn.yy) * y, z]
         });
         let (nearest, farthest) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
+        let front = (farthest * Eight::all(1e-6)).below(nearest);
         let [a, b, c] = [a[0] / a[1], b[0] / b[1], c[0] / c[1]];
-        let (mut low, mut high) = (a.min(b).min(c), a.max(b).max(c));
-        let behind = !(farthest * Eight::all(1e-6)).below(nearest).bits();
-        for k in 0..LANES {
-            low.0[k] = if behind >> k & 1 != 0 { -1e3 } else { low.0[k] };
-            high.0[k] = if behind >> k & 1 != 0 { 1e3 } else { high.0[k] };
+        let mut low = front.pick(a.min(b).min(c), Eight::all(-BEYOND));
+        let mut high = front.pick(a.max(b).max(c), Eight::all(BEYOND));
+        if let Some(cone) = &frame.cone {
+            [low, high] = cone.angles(low, high);
         }
-        Sides { slope: [p[0], q[0], r[0]], at: [p[1], q[1], r[1]], sign: [p[2], q[2], r[2]], low, high }
+        let half = 0.5 * ruling.rows as f32;
+        let middle = half + ruling.before();
+        // Row j of a replicate stands between j and j + 1.
+        let first = low * Eight::all(half) + Eight::all(middle - 1.0 - MARGIN * half);
+        let last = high * Eight::all(half) + Eight::all(middle + 1.0 + MARGIN * half);
+        [first.floor(), last.floor()]
+    }
+
+    /// `a x + b y + c` of the edges, not negative inside.
+    pub(crate) fn edges(&self, lane: usize) -> [Edge; 3] {
+        three!(i => {
+            let [a, b, c] = &self.edges[i];
+            Edge { a: a.0[lane], b: b.0[lane], c: c.0[lane] }
+        })
     }
 
     /// The plane's own form, for a triangle that crosses a flat light at a depth: nearer than that.

@@ -107,6 +107,17 @@ impl Eight {
         Self(out)
     }
 
+    /// Whole numbers below, from 0 to 255.
+    #[inline(always)]
+    pub(crate) fn floor(self) -> [u32; LANES] {
+        let held = self.max(Self::all(0.0)).min(Self::all(255.0));
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            out[k] = (held.0[k].floor() + 8_388_608.0).to_bits() & 0xff;
+        }
+        out
+    }
+
     /// The number of samples before each place, as the lowest bits of a mask.
     #[inline(always)]
     pub(crate) fn before(self) -> [u32; LANES] {
@@ -124,6 +135,24 @@ impl Eight {
 
 impl Mask {
     #[inline(always)]
+    pub(crate) fn not(self) -> Self {
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            out[k] = !self.0[k];
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
+    pub(crate) fn or(self, other: Self) -> Self {
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            out[k] = self.0[k] | other.0[k];
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
     pub(crate) fn and(self, other: Self) -> Self {
         let mut out = [0; LANES];
         for k in 0..LANES {
@@ -132,13 +161,44 @@ impl Mask {
         Self(out)
     }
 
+    #[inline(always)]
+    pub(crate) fn same(self, other: Self) -> Self {
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            out[k] = !(self.0[k] ^ other.0[k]);
+        }
+        Self(out)
+    }
+
+    /// `yes` where the lane is set, `no` elsewhere.
+    #[inline(always)]
+    pub(crate) fn pick(self, yes: Eight, no: Eight) -> Eight {
+        let mut out = [0.0; LANES];
+        for k in 0..LANES {
+            out[k] = if self.0[k] != 0 { yes.0[k] } else { no.0[k] };
+        }
+        Eight(out)
+    }
+
     /// A bit for each lane.
     #[inline(always)]
     pub(crate) fn bits(self) -> u32 {
-        let mut out = 0;
-        for k in 0..LANES {
-            out |= self.0[k] & 1 << k;
-        }
-        out
+        bytes([self, self, self, self])[0]
     }
+}
+
+/// A bit for each lane of four masks.
+#[inline(always)]
+pub(crate) fn bytes(masks: [Mask; 4]) -> [u32; 4] {
+    let mut lanes = [0; LANES];
+    for k in 0..LANES {
+        let low = masks[0].0[k] & 0xff | masks[1].0[k] & 0xff00;
+        let high = masks[2].0[k] & 0x00ff_0000 | masks[3].0[k] & 0xff00_0000;
+        lanes[k] = (low | high) & 0x0101_0101 << k;
+    }
+    let mut all = 0;
+    for k in 0..LANES {
+        all |= lanes[k];
+    }
+    [all & 0xff, all >> 8 & 0xff, all >> 16 & 0xff, all >> 24]
 }

@@ -12,6 +12,9 @@ pub(crate) struct Frame {
     /// Receiver's place, in two f32 that add up to it.
     pub(crate) place: [Vec3; 2],
     pub(crate) light_from_world: Mat3,
+    pub(crate) normal: Vec3,
+    /// Sum of the receiver's coordinates without signs.
+    pub(crate) extent: f32,
     /// The aim's u, v and axis.
     axes: [DVec3; 3],
     pub(crate) round: bool,
@@ -82,6 +85,8 @@ impl Frame {
         Some(Self {
             place: [high, (receiver.position - high.as_dvec3()).as_vec3()],
             light_from_world: matrix.inverse().as_mat3(),
+            normal: receiver.normal.as_vec3(),
+            extent: high.abs().element_sum(),
             axes: [aim.u, aim.v, aim.axis],
             round: aim.outline == Outline::Disk,
             flat: cone.is_none(),
@@ -123,10 +128,9 @@ impl Cone {
     /// The least and the largest angle that places on the tangent plane may stand for: on the light
     /// an angle is at least its tangent (both in units of the rim's) and at most `stretch` times it.
     #[inline(always)]
-    pub(crate) fn angles(&self, [low, high]: [f32; 2]) -> [f32; 2] {
-        let least = if low > 0.0 { low } else { low * self.stretch };
-        let most = if high > 0.0 { high * self.stretch } else { high };
-        [least, most]
+    pub(crate) fn angles(&self, low: Eight, high: Eight) -> [Eight; 2] {
+        let stretch = Eight::all(self.stretch);
+        [low.min(low * stretch), high.max(high * stretch)]
     }
 
     /// From the tangent plane to the sine along a row, in half widths.

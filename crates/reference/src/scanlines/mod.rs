@@ -24,7 +24,7 @@ use blocks::{Blocks, Survey};
 use eight::LANES;
 use frame::{Frame, Turn};
 use lines::{Lines, REPLICATES, Ruling};
-use outline::{Edge, Outline, rows_between};
+use outline::{Edge, Outline};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -248,7 +248,7 @@ fn look(
         ruling.fill(lines, frame, turn, seed);
         drawn = true;
         let [a, b, c] = frame.form(-receiver.normal);
-        let mut below = Outline::new(Outline::ALL_ROWS);
+        let mut below = Outline::new();
         below.add(turn, Edge { a, b, c });
         below.cover(lines, frame);
     }
@@ -279,17 +279,17 @@ fn look(
             }
             let block = &blocks.blocks[at];
             let mut survey = block.survey(frame);
-            let mut some = survey.some;
-            while some != 0 {
-                let lane = some.trailing_zeros() as usize;
-                some &= some - 1;
-                let (slot, corners) = (block.slots[lane], block.triangle(lane));
-                if !receiver.rises_clearly(slot, &corners) && receiver.skips(slot, &corners) {
+            let mut doubtful = survey.doubtful;
+            while doubtful != 0 {
+                let lane = doubtful.trailing_zeros() as usize;
+                doubtful &= doubtful - 1;
+                if receiver.skips(block.slots[lane], &block.triangle(lane)) {
                     survey.some &= !(1 << lane);
-                } else if survey.whole >> lane & 1 != 0 {
-                    *last = at;
-                    return Sight::Hidden;
                 }
+            }
+            if survey.some & survey.whole != 0 {
+                *last = at;
+                return Sight::Hidden;
             }
             if survey.some != 0 {
                 desk.surveys.push((at, survey));
@@ -303,7 +303,7 @@ fn look(
         ruling.fill(lines, frame, turn, seed);
     }
     for (at, survey) in &desk.surveys {
-        let sides = survey.sides(turn);
+        let sides = survey.sides(frame, ruling, turn);
         let mut some = survey.some;
         while some != 0 {
             let lane = some.trailing_zeros() as usize;
@@ -316,12 +316,18 @@ fn look(
                 });
                 continue;
             }
-            let rows = rows_between(frame, ruling, [sides.low.0[lane], sides.high.0[lane]]);
-            let mut outline = Outline::triangle(&sides, lane, rows);
-            if straddles {
-                outline.add(turn, survey.nearer(lane, frame.depth[0]));
+            if straddles || sides.open >> lane & 1 != 0 {
+                let mut outline = Outline::new();
+                for edge in survey.edges(lane) {
+                    outline.add(turn, edge);
+                }
+                if straddles {
+                    outline.add(turn, survey.nearer(lane, frame.depth[0]));
+                }
+                outline.cover(lines, frame);
+            } else {
+                outline::cover(&sides, lane, lines, frame);
             }
-            outline.cover(lines, frame);
         }
         if lines.full() {
             *last = *at;
