@@ -190,6 +190,10 @@ pub(crate) enum MethodArg {
     Shafts,
     /// A ray a sample.
     Rays,
+    /// V on jittered scanlines: the fastest. E and R come from the shafts' samples.
+    Scanlines,
+    /// A ray for each sample of the scanlines; E and R from `rays`.
+    ScanlineRays,
 }
 
 #[derive(Args, Debug)]

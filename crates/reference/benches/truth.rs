@@ -17,8 +17,16 @@ use umbrage_reference::{Method, Points, Tracer, TruthSettings};
 use umbrage_scene::{AreaLight, Camera, Scene};
 
 const CASES: [&str; 10] = [
-    "colonnade", "sponza-sun", "atrium-sun", "atrium-rect", "atrium-disk", "atrium-sphere", "atrium4-sun",
-    "atrium4-rect", "atrium-wide", "atrium-real-sun",
+    "colonnade",
+    "sponza-sun",
+    "atrium-sun",
+    "atrium-rect",
+    "atrium-disk",
+    "atrium-sphere",
+    "atrium4-sun",
+    "atrium4-rect",
+    "atrium-wide",
+    "atrium-real-sun",
 ];
 
 struct Options {
@@ -71,9 +79,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         seconds.sort_by(f64::total_cmp);
         let truth = found.ok_or("no round")?;
-        let share = |f: &dyn Fn(f32) -> bool| truth.mean.iter().filter(|&&m| f(m)).count() as f64 / truth.mean.len() as f64;
+        let share = |f: &dyn Fn(f32) -> bool| {
+            truth.mean.iter().filter(|&&m| f(m)).count() as f64 / truth.mean.len() as f64
+        };
         let mean = truth.mean.iter().map(|&m| f64::from(m)).sum::<f64>() / truth.mean.len() as f64;
-        let error = (truth.variance.iter().map(|&v| f64::from(v)).sum::<f64>() / truth.mean.len() as f64).sqrt();
+        let error =
+            (truth.variance.iter().map(|&v| f64::from(v)).sum::<f64>() / truth.mean.len() as f64).sqrt();
         let median = seconds[seconds.len() / 2];
         println!(
             "{method:?} x {}: {median:.3} s ({:.3} to {:.3}), {:.1} Msamples/s; V {mean:.6}, standard error {error:.5} (RMS); {:.3} lit, {:.3} hidden",

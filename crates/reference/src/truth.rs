@@ -183,7 +183,9 @@ impl<'a> Task<'a> {
         let surfaces = &self.tracer.surfaces;
         let between = match self.settings.method {
             Method::Rays | Method::ScanlineRays => shafts::Between::TooMany,
-            Method::Shafts | Method::Scanlines => shafts::gather(surfaces, receiver, aim, &mut scratch.shafts),
+            Method::Shafts | Method::Scanlines => {
+                shafts::gather(surfaces, receiver, aim, &mut scratch.shafts)
+            }
         };
         match between {
             shafts::Between::Nothing if elevation == Elevation::Above => return Sight::Lit,

@@ -20,6 +20,8 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
         method: match args.method {
             MethodArg::Shafts => Method::Shafts,
             MethodArg::Rays => Method::Rays,
+            MethodArg::Scanlines => Method::Scanlines,
+            MethodArg::ScanlineRays => Method::ScanlineRays,
         },
         ..TruthSettings::default()
     };

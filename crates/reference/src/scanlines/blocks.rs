@@ -149,7 +149,8 @@ impl Block {
         let low = three!(axis => Eight::all(low[axis]));
         let m = three!(column => three!(row => Eight::all(m[column][row])));
         let d = three!(i => three!(axis => (self.corners[i][axis] - high[axis]) - low[axis]));
-        let [a, b, c] = three!(i => three!(row => m[0][row] * d[i][0] + m[1][row] * d[i][1] + m[2][row] * d[i][2]));
+        let [a, b, c] =
+            three!(i => three!(row => m[0][row] * d[i][0] + m[1][row] * d[i][1] + m[2][row] * d[i][2]));
         // A corner surely above the horizon: f32 rounds eight times by 2^-24 of the coordinates.
         let clear = three!(i => {
             let [x, y, z] = d[i];
@@ -191,15 +192,19 @@ impl Block {
         }
         let off = zero.below(outside).or(largest.below(zero));
         let front = zero.below(farthest).and(nearest.below(Eight::all(far))).and(zero.below(volume));
-        let [some, before, partly, clear] = bytes([
-            front.and(off.not()),
-            before,
-            smallest.below(zero),
-            clear,
-        ]);
+        let [some, before, partly, clear] =
+            bytes([front.and(off.not()), before, smallest.below(zero), clear]);
         let some = some & self.used;
         let whole = some & before & !partly;
-        Survey { edges, corners: [a, b, c], volume, some, whole, straddle: some & !before, doubtful: some & !clear }
+        Survey {
+            edges,
+            corners: [a, b, c],
+            volume,
+            some,
+            whole,
+            straddle: some & !before,
+            doubtful: some & !clear,
+        }
     }
 
     #[inline(always)]
@@ -283,7 +288,8 @@ impl Survey {
 
     /// The plane's own form, for a triangle that crosses a flat light at a depth: nearer than that.
     pub(crate) fn nearer(&self, lane: usize, depth: f32) -> Edge {
-        let [a, b, c] = three!(i => self.edges[0][i].0[lane] + self.edges[1][i].0[lane] + self.edges[2][i].0[lane]);
+        let [a, b, c] =
+            three!(i => self.edges[0][i].0[lane] + self.edges[1][i].0[lane] + self.edges[2][i].0[lane]);
         Edge { a, b, c: c - self.volume.0[lane] / depth }
     }
 }
@@ -307,4 +313,3 @@ fn edge(from: &[Eight; 3], to: &[Eight; 3]) -> [Eight; 3] {
     let d = three!(i => to[i] - from[i]);
     [s[1] * d[2] - s[2] * d[1], s[2] * d[0] - s[0] * d[2], s[0] * d[1] - s[1] * d[0]]
 }
-

@@ -7,8 +7,8 @@
 //! a count of hidden ones unbiased; on a round light the share divides by the samples inside, a
 //! ratio whose bias is below 1e-4 at 1024 samples and falls with their number.
 
-use super::frame::{Frame, Turn};
 use super::eight::{Eight, LANES};
+use super::frame::{Frame, Turn};
 use crate::aim::Aim;
 use crate::owen::{mix, unit};
 use crate::samples::LightSamples;
@@ -54,7 +54,8 @@ impl Ruling {
         // The square of a round light holds 4 / pi times its samples.
         let wanted = if round { f64::from(samples) * 4.0 / std::f64::consts::PI } else { f64::from(samples) };
         let mut rows = 4;
-        let enough = |rows: usize| (2 * rows * rows) as f64 * 1.3 >= wanted && (rows * BITS as usize) as f64 >= wanted;
+        let enough =
+            |rows: usize| (2 * rows * rows) as f64 * 1.3 >= wanted && (rows * BITS as usize) as f64 >= wanted;
         while rows < 128 && !enough(rows) {
             rows *= 2;
         }

@@ -4,6 +4,7 @@
 //! Samples stand on parallel lines across the light, so that a triangle covers one run of bits of
 //! each line. Receivers that are near each other share one walk of the tree. A receiver's result is
 //! a function of its place alone: a longer list of candidates covers the same bits.
+#![expect(clippy::needless_range_loop, reason = "a lane is an index into several arrays at once")]
 
 mod blocks;
 mod eight;
@@ -13,16 +14,16 @@ mod outline;
 mod volume;
 
 use crate::aim::{Aim, Elevation};
+use crate::owen::mix;
 use crate::rays;
 use crate::receiver::Receiver;
-use crate::owen::mix;
 use crate::samples::{LightSamples, seed};
 use crate::truth::{Method, PointTruth, Scratch, Sight, Task};
 use crate::{Points, TruthSettings};
-use glam::Vec3;
 use blocks::{Blocks, Survey};
 use eight::LANES;
 use frame::{Frame, Turn};
+use glam::Vec3;
 use lines::{Lines, REPLICATES, Ruling};
 use outline::{Edge, Outline};
 use pulp::{Arch, Simd, WithSimd};
@@ -98,7 +99,8 @@ fn neighbours(points: &Points) -> (Vec<u32>, Vec<Range<usize>>) {
         .collect();
     keyed.par_sort_unstable();
     let mut groups = Vec::new();
-    let mut open = vec![0..keyed.len()];
+    let mut open = Vec::new();
+    open.push(0..keyed.len());
     while let Some(range) = open.pop() {
         if range.len() <= TOGETHER {
             if !range.is_empty() {
@@ -149,13 +151,7 @@ impl WithSimd for Group<'_> {
 }
 
 #[inline(always)]
-fn group(
-    task: &Task,
-    rulings: &Rulings,
-    points: &Points,
-    order: &[u32],
-    desk: &mut Desk,
-) -> Vec<PointTruth> {
+fn group(task: &Task, rulings: &Rulings, points: &Points, order: &[u32], desk: &mut Desk) -> Vec<PointTruth> {
     let surfaces = &task.tracer.surfaces;
     let receivers: Vec<Receiver> =
         order.iter().map(|&i| Receiver::new(surfaces, points, i as usize)).collect();
@@ -220,7 +216,8 @@ fn mean(lines: &Lines) -> PointTruth {
     let k = REPLICATES as f64;
     // Of a ratio: the residuals of each replicate against the common share (Cochran 1977, 6.4).
     let average = f64::from(inside.iter().sum::<u32>()) / k;
-    let squares: f64 = std::iter::zip(visible, inside).map(|(v, n)| (f64::from(v) - all * f64::from(n)).powi(2)).sum();
+    let squares: f64 =
+        std::iter::zip(visible, inside).map(|(v, n)| (f64::from(v) - all * f64::from(n)).powi(2)).sum();
     PointTruth {
         halves: halves.map(|h| h as f32),
         basis: 0.0,

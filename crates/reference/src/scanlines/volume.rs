@@ -52,8 +52,8 @@ pub(super) fn gather(
 impl Volume {
     fn new(light: &AreaLight, receivers: &[Receiver], extent: f64) -> Self {
         let places = || receivers.iter().map(|r| r.position);
-        let (low, high) = places()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let (low, high) =
+            places().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
         let middle = Receiver { position: (low + high) * 0.5, ..receivers[0] };
         let slack = ROUNDING * (extent + low.abs().max(high.abs()).max_element());
         let far = far_end(light);
@@ -107,9 +107,15 @@ fn sides(aim: &Aim) -> impl Iterator<Item = DVec3> {
 /// What the volume ends at.
 enum FarEnd {
     /// Directions: the axis and how far they reach to either side.
-    Sun { axis: DVec3, reach: DVec3 },
+    Sun {
+        axis: DVec3,
+        reach: DVec3,
+    },
     Corners([DVec3; 4]),
-    Ball { centre: DVec3, radius: f64 },
+    Ball {
+        centre: DVec3,
+        radius: f64,
+    },
 }
 
 fn far_end(light: &AreaLight) -> FarEnd {
@@ -145,11 +151,14 @@ impl FarEnd {
     fn bounds(&self) -> [DVec3; 2] {
         match self {
             Self::Sun { axis, reach } => {
-                let end = |c: f64, sign: f64| if sign * c > 0.0 { sign * f64::INFINITY } else { -sign * f64::INFINITY };
+                let end = |c: f64, sign: f64| {
+                    if sign * c > 0.0 { sign * f64::INFINITY } else { -sign * f64::INFINITY }
+                };
                 [(*axis - *reach).map(|c| end(c, -1.0)), (*axis + *reach).map(|c| end(c, 1.0))]
             }
             Self::Corners(corners) => {
-                let fold = |f: fn(DVec3, DVec3) -> DVec3| corners[1..].iter().fold(corners[0], |m, &c| f(m, c));
+                let fold =
+                    |f: fn(DVec3, DVec3) -> DVec3| corners[1..].iter().fold(corners[0], |m, &c| f(m, c));
                 [fold(DVec3::min), fold(DVec3::max)]
             }
             Self::Ball { centre, radius } => [*centre - *radius, *centre + *radius],
