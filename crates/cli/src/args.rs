@@ -167,7 +167,7 @@ pub(crate) struct ReferenceArgs {
     /// Light samples in each of the two halves.
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub(crate) samples: u32,
-    /// `shafts` (fast) or `rays` (the arbiter).
+    /// How the light is sampled, and how samples are looked at.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: MethodArg,
     /// Diffuse bounces of the beauty layers R, G, B; without it there is no beauty.
@@ -190,7 +190,7 @@ pub(crate) enum MethodArg {
     Shafts,
     /// A ray a sample.
     Rays,
-    /// V on jittered scanlines: the fastest. E and R come from the shafts' samples.
+    /// V on jittered scanlines: the fastest, at most 8192 samples a half. E and R come from the shafts' samples.
     Scanlines,
     /// A ray for each sample of the scanlines; E and R from `rays`.
     ScanlineRays,

@@ -30,4 +30,4 @@ pub use irradiance::Irradiance;
 pub use primary::{Points, PrimaryHits};
 pub use radiance::RadianceSettings;
 pub use tracer::Tracer;
-pub use truth::{GroundTruth, Method, TruthSettings};
+pub use truth::{GroundTruth, MOST_ON_SCANLINES, Method, TruthSettings};

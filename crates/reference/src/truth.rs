@@ -13,19 +13,23 @@ use umbrage_scene::AreaLight;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TruthSettings {
     /// Light samples of each half. Rounded up so that each replicate gets the same number, and down
-    /// to 65536 a replicate.
+    /// to 65536 a replicate; scanlines go to [`MOST_ON_SCANLINES`].
     pub samples: u32,
     /// Independent scrambles in all, split evenly over the two halves: even, at least 2 (raised if
     /// it is not) and at most 64. The variance is estimated from their spread: 8 to 16 are good.
+    /// Scanlines always take 8.
     pub replicates: u32,
     /// Samples of the third independent estimate, which scores build their projection from; at most
     /// 65536. With 0 there is none, and `basis` stays empty.
     pub basis_samples: u32,
     /// Of all scrambles.
     pub seed: u64,
-    /// Which of the two ways.
+    /// Which samples, and which way to look at them.
     pub method: Method,
 }
+
+/// Samples of each half that scanlines can hold: 16384 in all.
+pub const MOST_ON_SCANLINES: u32 = 8192;
 
 /// How the light is sampled and how the samples are looked at. The two ways of each kind of samples
 /// give the same answers but for samples on a silhouette.
@@ -37,9 +41,9 @@ pub enum Method {
     /// once.
     Shafts,
     /// Jittered scanlines, 256 to 16384 samples in eight replicates; triangles cover whole runs of a
-    /// line at once. The fastest.
+    /// line at once. Of V alone: irradiance takes the samples of [`Method::Shafts`].
     Scanlines,
-    /// The same scanlines, a ray for each sample: their arbiter.
+    /// The same scanlines, a ray for each sample: their arbiter. Irradiance as with [`Method::Rays`].
     ScanlineRays,
 }
 

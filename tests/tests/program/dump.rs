@@ -100,15 +100,21 @@ fn the_shadow_follows_from_the_blurred_mask(dump: &Dump) {
 
 #[test]
 fn the_reference_is_written_with_its_layers() {
+    check_reference("shafts", "rays");
+    check_reference("scanlines", "scanline-rays");
+}
+
+/// A way and its arbiter.
+fn check_reference(fast: &str, arbiter: &str) {
     let folder = empty_folder();
-    for (method, out) in [("shafts", "shafts.exr"), ("rays", "rays.exr")] {
+    for (method, out) in [(fast, "fast.exr"), (arbiter, "arbiter.exr")] {
         let line = format!(
             "reference colonnade --path P1 --frame 60 --size 96x54 --samples 64 --method {method} --out {out}"
         );
         let ran = run(&mut umbrage(folder.path(), &line)).ended_with(0);
         assert_eq!(ran.stdout.trim(), out);
     }
-    let layers = read_exr(&folder.path().join("shafts.exr")).expect("read");
+    let layers = read_exr(&folder.path().join("fast.exr")).expect("read");
     let layer = |name: &str| -> &Image<f32> {
         let found = layers.iter().find(|l| l.0 == name);
         &found.unwrap_or_else(|| panic!("no layer {name}")).1
@@ -128,10 +134,19 @@ fn the_reference_is_written_with_its_layers() {
     }
     assert!(mean.pixels().iter().filter(|v| **v > 0.1 && **v < 0.9).count() > 100, "there is a penumbra");
     // Both methods ask the same samples: they differ by samples on a silhouette at most.
-    let rays = read_exr(&folder.path().join("rays.exr")).expect("read");
+    let rays = read_exr(&folder.path().join("arbiter.exr")).expect("read");
     let rays = &rays.iter().find(|l| l.0 == "reference.V").expect("V").1;
     let differing = rays.pixels().iter().zip(mean.pixels()).filter(|(a, b)| a != b).count();
-    assert!(differing * 100 <= mean.pixels().len(), "{differing} pixels differ between rays and shafts");
+    assert!(differing * 100 <= mean.pixels().len(), "{differing} pixels differ between {arbiter} and {fast}");
+}
+
+#[test]
+fn more_samples_than_scanlines_hold_are_refused() {
+    let folder = empty_folder();
+    let line = "reference colonnade --size 16x9 --samples 8193 --method scanlines --out lines.exr";
+    let ran = run(&mut umbrage(folder.path(), line)).ended_with(2);
+    assert!(ran.stderr.contains("8193") && ran.stderr.contains("8192"), "{}", ran.stderr);
+    assert!(!folder.path().join("lines.exr").exists());
 }
 
 #[test]

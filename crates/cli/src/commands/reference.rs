@@ -6,9 +6,10 @@ use crate::output::print;
 use crate::scenes::find_scene;
 use crate::views::{frame_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
-use umbrage_reference::{Method, PrimaryHits, RadianceSettings, Tracer, TruthSettings};
+use umbrage_reference::{MOST_ON_SCANLINES, Method, PrimaryHits, RadianceSettings, Tracer, TruthSettings};
 
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
+    check_samples(args)?;
     let (scene, _) = find_scene(&args.scene)?;
     let path = path_of(&scene, &args.view.paths)?;
     let frame = frame_of(path, args.frame)?;
@@ -46,6 +47,18 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     }
     write_exr(&args.out, &layers)?;
     print(&args.out.display().to_string())
+}
+
+/// What scanlines cannot hold is refused, not cut.
+fn check_samples(args: &ReferenceArgs) -> Result<(), CliError> {
+    let lines = matches!(args.method, MethodArg::Scanlines | MethodArg::ScanlineRays);
+    if lines && args.samples > MOST_ON_SCANLINES {
+        return Err(CliError::Usage(format!(
+            "--samples {}: scanlines hold at most {MOST_ON_SCANLINES} in each half; take fewer, or --method shafts",
+            args.samples
+        )));
+    }
+    Ok(())
 }
 
 /// A value per hit as a picture; 0 where nothing is hit.

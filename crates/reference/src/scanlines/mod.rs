@@ -18,7 +18,7 @@ use crate::owen::mix;
 use crate::rays;
 use crate::receiver::Receiver;
 use crate::samples::{LightSamples, seed};
-use crate::truth::{Method, PointTruth, Scratch, Sight, Task};
+use crate::truth::{MOST_ON_SCANLINES, Method, PointTruth, Scratch, Sight, Task};
 use crate::{Points, TruthSettings};
 use blocks::{Blocks, Survey};
 use eight::LANES;
@@ -76,7 +76,8 @@ struct Rulings {
 impl Rulings {
     fn new(settings: &TruthSettings, light: &AreaLight) -> Self {
         let round = !matches!(light, AreaLight::Rect { .. });
-        let ruling = |samples: u32| Ruling::new(samples.div_ceil(REPLICATES as u32), round);
+        let most = 2 * MOST_ON_SCANLINES;
+        let ruling = |samples: u32| Ruling::new(samples.min(most).div_ceil(REPLICATES as u32), round);
         let basis = (settings.basis_samples > 0).then(|| ruling(settings.basis_samples));
         Self { mean: ruling(settings.samples.saturating_mul(2)), basis }
     }
