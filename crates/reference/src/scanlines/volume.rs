@@ -1,9 +1,9 @@
 //! Everything between a group of receivers and the light: one walk of the tree for all of them.
 
 use super::blocks::Blocks;
+use crate::aim::Aim;
 use crate::receiver::Receiver;
 use crate::surfaces::Surfaces;
-use crate::{aim::Aim, aim::Outline};
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::aabb::Aabb;
 use umbrage_scene::AreaLight;
@@ -129,8 +129,7 @@ fn far_end(light: &AreaLight) -> FarEnd {
                 let reach = DVec3::from_array([0, 1, 2].map(|i| aim.reach(aim.u[i], aim.v[i])));
                 FarEnd::Sun { axis: aim.axis, reach: reach + DVec3::splat(1e-9) }
             }
-            Some(Aim { axis, u, v, outline, .. }) => {
-                debug_assert!(matches!(outline, Outline::Square | Outline::Disk));
+            Some(Aim { axis, u, v, .. }) => {
                 FarEnd::Corners([axis + u + v, axis + u - v, axis - u + v, axis - u - v])
             }
             None => FarEnd::Ball { centre: DVec3::ZERO, radius: f64::INFINITY },
