@@ -1,6 +1,10 @@
 //! The lines of samples across a light.
 //!
-//! A replicate is a lattice of rows: one common shift across the rows, one shift along each. On a
+//! A replicate is a lattice of rows: one random shift across all rows, one along them, and each row
+//! stands further along than the one before by the replicate's step, a part of the distance between
+//! two samples that is drawn near the golden section's, so that whatever runs across rows meets samples
+//! evenly spread. Were the step the same for all, or the rows stratified, an edge across the rows
+//! would meet the same number in nearly every replicate, and their spread say nothing. On a
 //! rectangle the rows rise by [`RISE`] rows from side to side and wrap round, so that an edge
 //! parallel to a side, the commonest of all, crosses rows everywhere. On a round light the rows have
 //! a random direction and their ends are cut by the rim. Every sample is uniform on the light, hence
@@ -17,6 +21,9 @@ use crate::samples::LightSamples;
 pub(crate) const REPLICATES: usize = LANES;
 /// Rows that a row rises by on a rectangle.
 pub(crate) const RISE: usize = 2;
+/// The least step from row to row along a row, in distances between samples, and by how much it
+/// varies: about 1 minus the golden section's .618.
+const STEP: [f32; 2] = [0.29, 0.14];
 /// Samples that fit in the mask of a row.
 const BITS: u32 = 32;
 
@@ -54,8 +61,10 @@ impl Ruling {
         // The square of a round light holds 4 / pi times its samples.
         let wanted = if round { f64::from(samples) * 4.0 / std::f64::consts::PI } else { f64::from(samples) };
         let mut rows = 4;
+        // As many rows as samples in one, or up to twice: fewer would be faster, but 128 samples on
+        // eight rows have 1.2 (rectangle) to 1.3 times (disk) the error of sixteen.
         let enough =
-            |rows: usize| (2 * rows * rows) as f64 * 1.3 >= wanted && (rows * BITS as usize) as f64 >= wanted;
+            |rows: usize| (rows * rows) as f64 * 1.3 >= wanted && (rows * BITS as usize) as f64 >= wanted;
         while rows < 128 && !enough(rows) {
             rows *= 2;
         }
@@ -98,11 +107,16 @@ impl Ruling {
         // Rows that rise start below the light, rows that fall end above it.
         let first = if self.round || falls { 0.0 } else { -(RISE as f32) };
         let middle = if self.round { 0.0 } else { 0.5 * RISE as f32 * if falls { -1.0 } else { 1.0 } };
-        let mut keys = [0u64; REPLICATES];
-        let mut common = [0.0f32; REPLICATES];
+        // Of each replicate: the shift across, the shift along, the step.
+        let mut across = [0.0f32; REPLICATES];
+        let mut along = [0.0f32; REPLICATES];
+        let mut step = [0.0f32; REPLICATES];
         for k in 0..REPLICATES {
-            keys[k] = mix(seed.wrapping_add((k as u64 + 1) << 8));
-            common[k] = unit(keys[k] as u32);
+            let key = mix(seed.wrapping_add((k as u64 + 1) << 8));
+            let (low, high) = (key as u32, (key >> 32) as u32);
+            (across[k], along[k]) = (unit(low), unit(high));
+            let rest = (low & 0xff) << 8 | high & 0xff;
+            step[k] = STEP[0] + STEP[1] * (rest as f32 * (1.0 / 65536.0));
         }
         for (j, row) in lines.rows.iter_mut().enumerate() {
             let at = first + j as f32;
@@ -110,16 +124,15 @@ impl Ruling {
             let name = if falls || self.round { j } else { j + self.rows - RISE } % self.rows;
             row.hidden = [0; REPLICATES];
             for k in 0..REPLICATES {
-                // Two rows to a word.
-                let word = mix(keys[k] ^ (name as u64 >> 1) << 32);
-                row.shift.0[k] = unit(if name & 1 == 0 { word as u32 } else { (word >> 32) as u32 });
-                row.y.0[k] = 2.0 * (at + common[k] + middle) / n - 1.0;
+                let shift = along[k] + name as f32 * step[k];
+                row.shift.0[k] = shift - shift.floor();
+                row.y.0[k] = 2.0 * (at + across[k] + middle) / n - 1.0;
             }
             if self.round {
                 self.within(row, frame);
             } else {
                 for k in 0..REPLICATES {
-                    row.inside[k] = self.wrapped([at, common[k]], row.shift.0[k], falls);
+                    row.inside[k] = self.wrapped([at, across[k]], row.shift.0[k], falls);
                 }
             }
         }
