@@ -76,7 +76,7 @@ pub(crate) struct EvaluateArgs {
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(2..=64))]
     pub(crate) seeds: Option<u32>,
     /// Light samples of truth in each of its two halves.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65536))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub(crate) samples: Option<u32>,
     /// Small and coarse: an answer in seconds.
     #[arg(long)]
@@ -127,7 +127,7 @@ pub(crate) struct ClaimsArgs {
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u32).range(2..=64))]
     pub(crate) seeds: Option<u32>,
     /// Light samples of truth in each of its two halves.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65536))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub(crate) samples: Option<u32>,
     /// Side of the shadow map in texels, where a claim says nothing else.
     #[arg(long, value_name = "TEXELS", default_value_t = 2048)]
@@ -185,15 +185,15 @@ pub(crate) struct ReferenceArgs {
 
 #[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum MethodArg {
-    /// Gathered triangles against all samples at once.
+    /// Jittered scanlines, whole runs of samples at once: the fastest; at most 8192 samples a half.
     #[default]
-    Shafts,
-    /// A ray a sample.
-    Rays,
-    /// V on jittered scanlines: the fastest, at most 8192 samples a half. E and R come from the shafts' samples.
     Scanlines,
-    /// A ray for each sample of the scanlines; E and R from `rays`.
+    /// A ray for each sample of the scanlines: their arbiter.
     ScanlineRays,
+    /// Sobol points, gathered triangles against each sample.
+    Shafts,
+    /// A ray for each Sobol point.
+    Rays,
 }
 
 #[derive(Args, Debug)]

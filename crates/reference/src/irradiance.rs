@@ -4,7 +4,7 @@ use crate::aim::{Aim, Outline, Spread};
 use crate::receiver::Receiver;
 use crate::samples::seed;
 use crate::truth::{Scratch, Sight, Task};
-use crate::{Points, Tracer, TruthSettings};
+use crate::{Points, Tracer, TruthSettings, scanlines};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -32,11 +32,15 @@ impl Tracer {
         let settings = &TruthSettings { basis_samples: 0, ..*settings };
         let layout = &settings.layout();
         let task = Task::new(self, light, (settings, layout));
-        let each: Vec<[f32; 3]> = (0..points.len())
-            .into_par_iter()
-            .with_min_len(64)
-            .map_init(Scratch::default, |scratch, index| task.irradiance(points, index, scratch))
-            .collect();
+        let each: Vec<[f32; 3]> = if settings.method.on_scanlines() {
+            scanlines::irradiance(&task, points)
+        } else {
+            (0..points.len())
+                .into_par_iter()
+                .with_min_len(64)
+                .map_init(Scratch::default, |scratch, index| task.irradiance(points, index, scratch))
+                .collect()
+        };
         let list = |i: usize| each.iter().map(|e| e[i]).collect();
         Irradiance { shadowed: list(0), unshadowed: list(1), ratio: list(2) }
     }
@@ -44,7 +48,7 @@ impl Tracer {
 
 impl Task<'_> {
     /// E, E0 and R of one point.
-    fn irradiance(&self, points: &Points, index: usize, scratch: &mut Scratch) -> [f32; 3] {
+    pub(crate) fn irradiance(&self, points: &Points, index: usize, scratch: &mut Scratch) -> [f32; 3] {
         let receiver = Receiver::new(&self.tracer.surfaces, points, index);
         let Some(aim) = Aim::new(self.light, &receiver) else { return [0.0; 3] };
         let seed = seed(self.seed, points.position[index]);
@@ -75,7 +79,7 @@ pub(crate) struct Emitter {
     /// Area in m^2 or solid angle in sr.
     pub(crate) size: f64,
     /// A flat light's normal; zero if it has none. `None` for a cone.
-    flat: Option<DVec3>,
+    pub(crate) flat: Option<DVec3>,
 }
 
 impl Emitter {

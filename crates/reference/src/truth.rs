@@ -13,7 +13,8 @@ use umbrage_scene::AreaLight;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TruthSettings {
     /// Light samples of each half. Rounded up so that each replicate gets the same number, and down
-    /// to 65536 a replicate; scanlines go to [`MOST_ON_SCANLINES`].
+    /// to 65536 a replicate; scanlines have at least 4 a replicate and
+    /// at most [`MOST_ON_SCANLINES`] a half.
     pub samples: u32,
     /// Independent scrambles in all, split evenly over the two halves: even, at least 2 (raised if
     /// it is not) and at most 64. The variance is estimated from their spread: 8 to 16 are good.
@@ -41,15 +42,22 @@ pub enum Method {
     /// once.
     Shafts,
     /// Jittered scanlines, 256 to 16384 samples in eight replicates; triangles cover whole runs of a
-    /// line at once. Of V alone: irradiance takes the samples of [`Method::Shafts`].
+    /// line at once. The default.
     Scanlines,
-    /// The same scanlines, a ray for each sample: their arbiter. Irradiance as with [`Method::Rays`].
+    /// The same scanlines, a ray for each sample: their arbiter.
     ScanlineRays,
+}
+
+impl Method {
+    /// Whether samples stand on scanlines.
+    pub fn on_scanlines(self) -> bool {
+        matches!(self, Self::Scanlines | Self::ScanlineRays)
+    }
 }
 
 impl Default for TruthSettings {
     fn default() -> Self {
-        Self { samples: 512, replicates: 8, basis_samples: 1024, seed: 0, method: Method::Shafts }
+        Self { samples: 512, replicates: 8, basis_samples: 1024, seed: 0, method: Method::Scanlines }
     }
 }
 
@@ -114,7 +122,7 @@ impl Tracer {
         points.check();
         let layout = settings.layout();
         let task = Task::new(self, light, (settings, &layout));
-        let lines = matches!(settings.method, Method::Scanlines | Method::ScanlineRays);
+        let lines = settings.method.on_scanlines();
         let each: Vec<PointTruth> = if lines {
             scanlines::truth(&task, points)
         } else {

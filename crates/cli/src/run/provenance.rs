@@ -28,9 +28,9 @@ pub(super) fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provena
         truth: TruthCard {
             samples_per_half: plan.sampling.samples,
             basis_samples: plan.sampling.basis_samples,
-            method: "shafts: every triangle between point and light against Owen-scrambled Sobol samples; \
-                     rays where there are too many"
-                .into(),
+            method:
+                "scanlines: every triangle between point and light covers runs of samples on jittered lines"
+                    .into(),
         },
         scenes: plan.jobs.iter().map(|job| scene_card(&job.scene, settings.map_texels)).collect(),
         notes: notes(plan, settings),
@@ -58,7 +58,7 @@ fn notes(plan: &Plan, settings: &Settings) -> Vec<String> {
             plan.frames, plan.sampling.window
         ),
         format!(
-            "truth: {} scrambles in all; the pixel reading's truth has {PIXEL_SAMPLES} samples in each half",
+            "truth: {} replicates in all; the pixel reading's truth has {PIXEL_SAMPLES} samples in each half",
             TruthSettings::default().replicates
         ),
         format!(

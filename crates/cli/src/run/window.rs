@@ -7,7 +7,7 @@ use glam::Vec3;
 use std::time::Instant;
 use umbrage_frame::{AgreementLimits, Anchors, Image, View};
 use umbrage_metrics::{Coverage, PanelTruth, Region, TILE_PX, Tiling, counted};
-use umbrage_reference::{Cache, GroundTruth, Method, Points, PrimaryHits, Source, Tracer, TruthSettings};
+use umbrage_reference::{Cache, GroundTruth, Points, PrimaryHits, Source, Tracer, TruthSettings};
 use umbrage_scene::{AreaLight, CameraPath, PathFrame, Scene};
 use umbrage_shadows::{LightMap, Renderer};
 
@@ -260,7 +260,6 @@ impl Truths<'_> {
             samples: sampling.samples,
             basis_samples: sampling.basis_samples,
             seed: ANCHOR_SEED,
-            method: Method::Shafts,
             ..TruthSettings::default()
         };
         let middle = self.get(points, &frames[frames.len() / 2].1, settings)?;
@@ -305,10 +304,9 @@ impl Truths<'_> {
             };
             let settings = TruthSettings {
                 samples: PIXEL_SAMPLES,
-                replicates: 2,
                 basis_samples: 0,
                 seed: PIXEL_SEED + frame as u64,
-                method: Method::Shafts,
+                ..TruthSettings::default()
             };
             let at_pixels = self.get(&points, light, settings)?;
             for (half, values) in halves.iter_mut().enumerate() {

@@ -44,7 +44,7 @@ pub(crate) struct Row {
     pub(crate) cos: Eight,
     /// Sample i stands at `(i + shift) / per_row` of the way from -1 to 1 times the half width.
     pub(crate) shift: Eight,
-    inside: [u32; REPLICATES],
+    pub(crate) inside: [u32; REPLICATES],
     pub(crate) hidden: [u32; REPLICATES],
 }
 

@@ -12,8 +12,10 @@ mod frame;
 mod lines;
 mod outline;
 mod volume;
+mod weights;
 
 use crate::aim::{Aim, Elevation};
+use crate::irradiance::Emitter;
 use crate::owen::mix;
 use crate::rays;
 use crate::receiver::Receiver;
@@ -47,18 +49,37 @@ struct Desk {
 
 /// The truth at all points, in their order.
 pub(crate) fn truth(task: &Task, points: &Points) -> Vec<PointTruth> {
+    let found = each_group(task, points, |group| Arch::new().dispatch(Looking(group)));
+    in_order(found, PointTruth::exact(1.0, false), points)
+}
+
+/// E, E0 and R at all points, in their order.
+pub(crate) fn irradiance(task: &Task, points: &Points) -> Vec<[f32; 3]> {
+    let found = each_group(task, points, |group| Arch::new().dispatch(Weighing(group)));
+    in_order(found, [0.0; 3], points)
+}
+
+/// What a function finds at the receivers of each group, and which they are.
+fn each_group<T: Send>(
+    task: &Task,
+    points: &Points,
+    find: impl Fn(Group) -> Vec<T> + Sync,
+) -> (Vec<u32>, Vec<Vec<T>>) {
     let rulings = Rulings::new(task.settings, task.light);
     let (order, groups) = neighbours(points);
-    let found: Vec<Vec<PointTruth>> = groups
+    let found = groups
         .into_par_iter()
         .map_init(Desk::default, |desk, range| {
-            // Compiled for the widest registers that there are; the same bits with any.
-            Arch::new().dispatch(Group { task, rulings: &rulings, points, order: &order[range], desk })
+            find(Group { task, rulings: &rulings, points, order: &order[range], desk })
         })
         .collect();
-    let mut each = vec![PointTruth::exact(1.0, false); points.len()];
-    for (&index, truth) in order.iter().zip(found.into_iter().flatten()) {
-        each[index as usize] = truth;
+    (order, found)
+}
+
+fn in_order<T: Copy>((order, found): (Vec<u32>, Vec<Vec<T>>), none: T, points: &Points) -> Vec<T> {
+    let mut each = vec![none; points.len()];
+    for (&index, one) in order.iter().zip(found.into_iter().flatten()) {
+        each[index as usize] = one;
     }
     each
 }
@@ -142,30 +163,90 @@ struct Group<'a> {
     desk: &'a mut Desk,
 }
 
-impl WithSimd for Group<'_> {
+/// Finds the truth. Compiled for the widest registers that there are; the same bits with any.
+struct Looking<'a>(Group<'a>);
+
+/// Finds the irradiance.
+struct Weighing<'a>(Group<'a>);
+
+impl WithSimd for Looking<'_> {
     type Output = Vec<PointTruth>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Vec<PointTruth> {
-        group(self.task, self.rulings, self.points, self.order, self.desk)
+        let Group { task, rulings, points, order, desk } = self.0;
+        let receivers = receivers(task, points, order, desk);
+        let mut last = 0;
+        let mut found = Vec::with_capacity(order.len());
+        for (receiver, &index) in receivers.iter().zip(order) {
+            found.push(point(task, rulings, (receiver, points, index as usize), desk, &mut last));
+        }
+        found
     }
 }
 
+impl WithSimd for Weighing<'_> {
+    type Output = Vec<[f32; 3]>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Vec<[f32; 3]> {
+        let Group { task, rulings, points, order, desk } = self.0;
+        let receivers = receivers(task, points, order, desk);
+        let mut last = 0;
+        let mut found = Vec::with_capacity(order.len());
+        for (receiver, &index) in receivers.iter().zip(order) {
+            found.push(weighed(task, rulings, (receiver, points, index as usize), desk, &mut last));
+        }
+        found
+    }
+}
+
+/// The receivers of a group, with their candidates on the desk.
 #[inline(always)]
-fn group(task: &Task, rulings: &Rulings, points: &Points, order: &[u32], desk: &mut Desk) -> Vec<PointTruth> {
+fn receivers(task: &Task, points: &Points, order: &[u32], desk: &mut Desk) -> Vec<Receiver> {
     let surfaces = &task.tracer.surfaces;
     let receivers: Vec<Receiver> =
         order.iter().map(|&i| Receiver::new(surfaces, points, i as usize)).collect();
-    let rays = task.settings.method == Method::ScanlineRays;
-    if !rays {
+    if task.settings.method != Method::ScanlineRays {
         volume::gather(surfaces, task.light, &receivers, (&mut desk.open, &mut desk.blocks));
     }
-    let mut last = 0;
-    let mut found = Vec::with_capacity(order.len());
-    for (receiver, &index) in receivers.iter().zip(order) {
-        found.push(point(task, rulings, (receiver, points, index as usize), desk, &mut last));
+    receivers
+}
+
+/// E, E0 and R of one point, from the samples that the mean of its truth is made of.
+#[inline(always)]
+fn weighed(
+    task: &Task,
+    rulings: &Rulings,
+    (receiver, points, index): (&Receiver, &Points, usize),
+    desk: &mut Desk,
+    last: &mut usize,
+) -> [f32; 3] {
+    let Some(aim) = Aim::new(task.light, receiver) else { return [0.0; 3] };
+    if aim.elevation(receiver.normal) == Elevation::Below {
+        return [0.0; 3];
     }
-    found
+    let Some(frame) = Frame::new(receiver, &aim) else {
+        return task.irradiance(points, index, &mut desk.scratch);
+    };
+    let ruling = &rulings.mean;
+    let seed = mix(seed(task.seed, points.position[index]));
+    let turn = ruling.turn(seed);
+    let sight = look(task, (receiver, &aim), (&frame, &turn), (ruling, seed), desk, last);
+    if !matches!(sight, Sight::Sampled) {
+        ruling.fill(&mut desk.lines, &frame, &turn, seed);
+    }
+    let emitter = Emitter::new(&aim);
+    let [visible, all] = weights::sums(&desk.lines, (&frame, &turn), &aim, (&emitter, receiver.normal));
+    let visible = match sight {
+        Sight::Lit => all,
+        Sight::Hidden => 0.0,
+        Sight::Sampled => visible,
+    };
+    let inside = f64::from(desk.lines.inside().iter().sum::<u32>()).max(1.0);
+    let scale = emitter.size / inside;
+    let ratio = if all > 0.0 { visible / all } else { 0.0 };
+    [(visible * scale) as f32, (all * scale) as f32, ratio as f32]
 }
 
 #[inline(always)]
