@@ -88,10 +88,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let median = seconds[seconds.len() / 2];
         println!(
             "{method:?} x {}: {median:.3} s ({:.3} to {:.3}), {:.1} Msamples/s; V {mean:.6}, standard error {error:.5} (RMS); {:.3} lit, {:.3} hidden",
-            truth.samples,
+            truth.samples[0],
             seconds[0],
             seconds[seconds.len() - 1],
-            points.len() as f64 * f64::from(truth.samples) / median / 1e6,
+            points.len() as f64 * f64::from(truth.samples[0]) / median / 1e6,
             share(&|m| m == 1.0),
             share(&|m| m == 0.0),
         );

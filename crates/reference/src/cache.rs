@@ -54,11 +54,12 @@ impl Tracer {
         hasher.update(&entry::VERSION.to_le_bytes());
         hasher.update(&self.scene_hash);
         hasher.update(&light.content_hash());
-        let TruthSettings { samples, replicates, basis_samples, seed, method } = *settings;
+        let TruthSettings { samples, replicates, basis_samples, seed, method, tolerance } = *settings;
         for number in [samples, replicates, basis_samples, method as u32] {
             hasher.update(&number.to_le_bytes());
         }
         hasher.update(&seed.to_le_bytes());
+        hasher.update(&tolerance.unwrap_or(0.0).to_le_bytes());
         hasher.update(&(points.len() as u64).to_le_bytes());
         hasher.update(bytemuck::cast_slice(&points.position));
         hasher.update(bytemuck::cast_slice(&points.normal));

@@ -23,7 +23,8 @@ pub struct Irradiance {
 }
 
 impl Tracer {
-    /// E, E0 and R at points, from the same light samples (both halves) as the truth's mean.
+    /// E, E0 and R at points, from the same light samples (both halves) as the truth's mean: `samples` of each, whatever
+    /// the tolerance.
     ///
     /// # Panics
     /// When the lists of `points` differ in length: a programming error, never a user's.

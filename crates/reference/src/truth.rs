@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use umbrage_scene::AreaLight;
 
 /// How the truth is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruthSettings {
     /// Light samples of each half. Rounded up so that each replicate gets the same number, and down
     /// to 65536 a replicate; scanlines have at least 4 a replicate and
@@ -27,6 +27,10 @@ pub struct TruthSettings {
     pub seed: u64,
     /// Which samples, and which way to look at them.
     pub method: Method,
+    /// Standard error of V that is wanted at each point, above 0. Points that need it get 4, 16, 64, ...
+    /// times as many samples, up to what the method holds; an independent pilot of at most 256 samples
+    /// says which, and is thrown away, so that nothing is biased. `None`: the same number for all.
+    pub tolerance: Option<f32>,
 }
 
 /// Samples of each half that scanlines can hold: 16384 in all.
@@ -57,7 +61,14 @@ impl Method {
 
 impl Default for TruthSettings {
     fn default() -> Self {
-        Self { samples: 512, replicates: 8, basis_samples: 1024, seed: 0, method: Method::Scanlines }
+        Self {
+            samples: 512,
+            replicates: 8,
+            basis_samples: 1024,
+            seed: 0,
+            method: Method::Scanlines,
+            tolerance: None,
+        }
     }
 }
 
@@ -75,8 +86,8 @@ pub struct GroundTruth {
     /// Of `mean`: unbiased, from the spread of the replicates; 0 where all of them agree, which is nearly always but not
     /// always exact.
     pub variance: Vec<f32>,
-    /// Samples that `mean` is made of, at each point.
-    pub samples: u32,
+    /// Samples that `mean` is made of at each point (on a round light's scanlines: on average).
+    pub samples: Vec<u32>,
     /// Whether the whole light is above the surface's horizon on the viewer's side, and the point
     /// outside the light.
     pub facing: Vec<bool>,
@@ -120,6 +131,14 @@ impl Tracer {
     /// When the lists of `points` differ in length: a programming error, never a user's.
     pub fn truth(&self, points: &Points, light: &AreaLight, settings: &TruthSettings) -> GroundTruth {
         points.check();
+        match settings.tolerance {
+            Some(tolerance) => self.refined(points, light, settings, tolerance),
+            None => self.equal(points, light, settings),
+        }
+    }
+
+    /// The truth with the same number of samples at all points.
+    pub(crate) fn equal(&self, points: &Points, light: &AreaLight, settings: &TruthSettings) -> GroundTruth {
         let layout = settings.layout();
         let task = Task::new(self, light, (settings, &layout));
         let lines = settings.method.on_scanlines();
@@ -132,16 +151,17 @@ impl Tracer {
                 .map_init(Scratch::default, |scratch, index| task.point(points, index, scratch))
                 .collect()
         };
+        let samples = match lines {
+            true => scanlines::samples(&task),
+            false => (layout.replicates * layout.per_replicate) as u32,
+        };
         let list = |pick: fn(&PointTruth) -> f32| each.iter().map(pick).collect::<Vec<f32>>();
         GroundTruth {
             mean: list(|p| p.mean),
             halves: [list(|p| p.halves[0]), list(|p| p.halves[1])],
             basis: if layout.basis > 0 { list(|p| p.basis) } else { Vec::new() },
             variance: list(|p| p.variance),
-            samples: match lines {
-                true => scanlines::samples(&task),
-                false => (layout.replicates * layout.per_replicate) as u32,
-            },
+            samples: vec![samples; points.len()],
             facing: each.iter().map(|p| p.facing).collect(),
         }
     }

@@ -34,7 +34,7 @@ fn stage() -> Stage {
 }
 
 fn settings(seed: u64, samples: u32, basis_samples: u32) -> TruthSettings {
-    TruthSettings { samples, replicates: 8, basis_samples, seed, method: Method::Shafts }
+    TruthSettings { samples, replicates: 8, basis_samples, seed, method: Method::Scanlines, tolerance: None }
 }
 
 impl Stage {

@@ -26,7 +26,7 @@ fn both(tracer: &Tracer, points: &Points, light: &AreaLight, pair: [Method; 2]) 
 /// Samples, of 256, that differ at each point.
 fn differences([rays, shafts]: &[GroundTruth; 2]) -> Vec<u32> {
     assert_eq!(rays.facing, shafts.facing);
-    let samples = rays.samples as f32;
+    let samples = rays.samples[0] as f32;
     rays.mean.iter().zip(&shafts.mean).map(|(a, b)| ((a - b).abs() * samples).round() as u32).collect()
 }
 

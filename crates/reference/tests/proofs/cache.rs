@@ -17,7 +17,7 @@ fn made_up(points: usize, seed: u64) -> GroundTruth {
         halves: [list(), list()],
         basis: list(),
         variance: list(),
-        samples: 7,
+        samples: (0..points as u32).collect(),
         facing: list().iter().map(|&v| v > 0.5).collect(),
     }
 }
@@ -64,6 +64,7 @@ fn keys_follow_content() {
         key(1.0, &points, 1.0, &TruthSettings { basis_samples: 9, ..base }),
         key(1.0, &points, 1.0, &TruthSettings { seed: 9, ..base }),
         key(1.0, &points, 1.0, &TruthSettings { method: Method::Rays, ..base }),
+        key(1.0, &points, 1.0, &TruthSettings { tolerance: Some(0.01), ..base }),
     ];
     others.push(key(1.0, &points, 1.0, &base));
     assert_eq!(others.last(), Some(&key(1.0, &points, 1.0, &base)), "the same content, the same key");

@@ -61,7 +61,7 @@ pub(crate) fn on_floor(xs: impl IntoIterator<Item = f32>, z: f32) -> Points {
 
 /// Settings for a test.
 pub(crate) fn settings(samples: u32, method: Method) -> TruthSettings {
-    TruthSettings { samples, replicates: 8, basis_samples: samples, seed: 1, method }
+    TruthSettings { samples, replicates: 8, basis_samples: samples, seed: 1, method, tolerance: None }
 }
 
 /// A camera of 60 degrees.

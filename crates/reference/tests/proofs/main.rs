@@ -9,4 +9,5 @@ mod independence;
 mod irradiance;
 mod pitfalls;
 mod primary;
+mod refine;
 mod sampling;
