@@ -78,6 +78,10 @@ pub(crate) struct EvaluateArgs {
     /// Light samples of truth in each of its two halves.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=8192))]
     pub(crate) samples: Option<u32>,
+    /// Standard error of truth that is wanted at each point, e.g. 0.002: points that need it get more
+    /// samples, up to 8192 in each half.
+    #[arg(long, value_name = "ERROR", value_parser = parse_tolerance)]
+    pub(crate) tolerance: Option<f32>,
     /// Small and coarse: an answer in seconds.
     #[arg(long)]
     pub(crate) quick: bool,
@@ -167,6 +171,10 @@ pub(crate) struct ReferenceArgs {
     /// Light samples in each of the two halves.
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub(crate) samples: u32,
+    /// Standard error of V that is wanted at each pixel, e.g. 0.002: pixels that need it get more
+    /// samples. What was reached is said, and written as layer `samples.V`.
+    #[arg(long, value_name = "ERROR", value_parser = parse_tolerance)]
+    pub(crate) tolerance: Option<f32>,
     /// How the light is sampled, and how samples are looked at.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: MethodArg,
@@ -287,5 +295,13 @@ pub(crate) fn check_size((width, height): (u32, u32)) -> Result<(u32, u32), Stri
             Err(format!("a picture has at most {MAX_PIXELS} pixels (8K), not {pixels}"))
         }
         _ => Ok((width, height)),
+    }
+}
+
+/// A standard error of V.
+fn parse_tolerance(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
+        _ => Err("a standard error between 0 and 1, such as 0.002".into()),
     }
 }

@@ -65,6 +65,8 @@ pub(crate) struct Sampling {
     /// Truth samples in each half.
     pub(crate) samples: u32,
     pub(crate) basis_samples: u32,
+    /// Standard error of truth that is wanted at each point.
+    pub(crate) tolerance: Option<f32>,
 }
 
 /// Frames of a window, unless the path is shorter (METRICS: T is part of the score).
@@ -97,6 +99,7 @@ impl Plan {
                 seeds: args.seeds.unwrap_or(4),
                 samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
                 basis_samples: BASIS_SAMPLES,
+                tolerance: args.tolerance,
             },
         })
     }

@@ -150,6 +150,28 @@ fn more_samples_than_scanlines_hold_are_refused() {
 }
 
 #[test]
+fn a_tolerance_is_reached_and_said() {
+    let folder = empty_folder();
+    let line = "reference colonnade --size 96x54 --samples 64 --tolerance 0.004 --out truth.exr";
+    let ran = run(&mut umbrage(folder.path(), line)).ended_with(0);
+    assert!(ran.stderr.contains("truth within 0.004"), "{}", ran.stderr);
+    let layers = read_exr(&folder.path().join("truth.exr")).expect("read");
+    let layer = |name: &str| layers.iter().find(|l| l.0 == name).expect(name).1.pixels().to_vec();
+    let (samples, variance) = (layer("samples.V"), layer("variance.V"));
+    // Few pixels need more than what all get; they get it, and then few miss the tolerance.
+    let least = samples.iter().copied().filter(|&s| s > 0.0).fold(f32::INFINITY, f32::min);
+    let refined = samples.iter().filter(|&&s| s > 2.0 * least).count();
+    assert!(refined > 50 && refined < samples.len() / 2, "{refined} of {} refined", samples.len());
+    let above = variance.iter().filter(|v| v.sqrt() > 0.004).count();
+    assert!(above < refined / 4, "{above} above the tolerance, {refined} refined");
+    for wrong in ["0", "1", "-0.1", "nan", "much"] {
+        let line = format!("reference colonnade --size 16x9 --tolerance={wrong} --out no.exr");
+        let ran = run(&mut umbrage(folder.path(), &line)).ended_with(2);
+        assert!(ran.stderr.contains("between 0 and 1"), "{wrong}: {}", ran.stderr);
+    }
+}
+
+#[test]
 fn beauty_layers_are_written_when_bounces_are_asked_for() {
     let folder = empty_folder();
     let line =

@@ -23,6 +23,17 @@ fn a_run_prints_its_scorecard_and_leaves_every_page() {
     pages_can_be_made_again(folder.path());
 }
 
+/// Truth within a tolerance says for each window what was reached.
+#[test]
+fn a_run_says_what_its_truth_reached() {
+    let folder = folder_with_scene();
+    let line = "evaluate scene.toml --size 64x36 --frames 1 --seeds 2 --samples 32 --tolerance 0.01 --map 256 \
+                --variant hard --out run --cache cache";
+    run(&mut umbrage(folder.path(), line)).ended_with(0);
+    let card = std::fs::read_to_string(folder.path().join("run/scorecard.json")).expect("stored");
+    assert!(card.contains("truth within 0.01: its standard error is"), "{card}");
+}
+
 fn only_the_scorecard_is_printed(ran: &Ran, out: &Path) -> Card {
     let printed: Value = serde_json::from_str(&ran.stdout).expect("standard output is one JSON value");
     let stored = std::fs::read_to_string(out.join("scorecard.json")).expect("stored");

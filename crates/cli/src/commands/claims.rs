@@ -72,6 +72,7 @@ fn sampling(args: &ClaimsArgs) -> Sampling {
         seeds: args.seeds.unwrap_or(if quick { 2 } else { 4 }),
         samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
         basis_samples: BASIS_SAMPLES,
+        tolerance: None,
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::args::{MethodArg, ReferenceArgs};
 use crate::error::CliError;
 use crate::output::print;
+use crate::run::window::reached_note;
 use crate::scenes::find_scene;
 use crate::views::{frame_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
@@ -24,6 +25,7 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
             MethodArg::Scanlines => Method::Scanlines,
             MethodArg::ScanlineRays => Method::ScanlineRays,
         },
+        tolerance: args.tolerance,
         ..TruthSettings::default()
     };
     let points = hits.points();
@@ -38,6 +40,10 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     add("irradiance.E", &irradiance.shadowed);
     add("irradiance.E0", &irradiance.unshadowed);
     add("irradiance.R", &irradiance.ratio);
+    if let Some(tolerance) = args.tolerance {
+        add("samples.V", &truth.samples.iter().map(|&s| s as f32).collect::<Vec<_>>());
+        eprintln!("{}", reached_note(&truth.reached(tolerance), tolerance));
+    }
     if let Some(bounces) = args.bounces {
         let settings = RadianceSettings { samples: args.beauty_samples, bounces, seed: 0 };
         let beauty = tracer.radiance(&view, &frame.light, &settings);

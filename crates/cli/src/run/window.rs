@@ -7,7 +7,7 @@ use glam::Vec3;
 use std::time::Instant;
 use umbrage_frame::{AgreementLimits, Anchors, Image, View};
 use umbrage_metrics::{Coverage, PanelTruth, Region, TILE_PX, Tiling, counted};
-use umbrage_reference::{Cache, GroundTruth, Points, PrimaryHits, Source, Tracer, TruthSettings};
+use umbrage_reference::{Cache, GroundTruth, Points, PrimaryHits, Reached, Source, Tracer, TruthSettings};
 use umbrage_scene::{AreaLight, CameraPath, PathFrame, Scene};
 use umbrage_shadows::{LightMap, Renderer};
 
@@ -260,9 +260,13 @@ impl Truths<'_> {
             samples: sampling.samples,
             basis_samples: sampling.basis_samples,
             seed: ANCHOR_SEED,
+            tolerance: sampling.tolerance,
             ..TruthSettings::default()
         };
         let middle = self.get(points, &frames[frames.len() / 2].1, settings)?;
+        if let Some(tolerance) = sampling.tolerance {
+            self.notes.push(reached_note(&middle.reached(tolerance), tolerance));
+        }
         let mut facing = middle.facing.clone();
         let moves = frames.iter().any(|f| f.1 != frames[0].1);
         let (mut halves, count) = if moves { ([vec![], vec![]], frames.len()) } else { (middle.halves, 1) };
@@ -320,6 +324,18 @@ impl Truths<'_> {
         let (basis, variance) = (truth.basis.clone(), truth.variance.clone());
         Ok(PanelTruth { frames: frames.len(), halves, basis, variance })
     }
+}
+
+/// What became of the tolerance, at the middle frame's light.
+pub(crate) fn reached_note(reached: &Reached, tolerance: f32) -> String {
+    format!(
+        "truth within {tolerance}: its standard error is {:.5} (RMS), {:.5} at most, above the tolerance at {:.2} % of the \
+         points; {:.0} samples a point on average",
+        reached.rms,
+        reached.worst,
+        100.0 * reached.above,
+        reached.samples
+    )
 }
 
 /// Most of the anchors that may lie outside the shadow map, where everything is lit, without a word.
