@@ -19,6 +19,10 @@ const EXIT_CODES: &str = "Exit codes: 0 pass (warnings allowed), 1 regression or
 pub(crate) enum Command {
     /// Render truth and variants, score them, write the report: the main job.
     Evaluate(EvaluateArgs),
+    /// The gate: a stored run against a baseline.
+    Compare(CompareArgs),
+    /// Makes a stored run the baseline.
+    Accept(AcceptArgs),
     /// What the seed documents say, measured: a verdict on every claim.
     Claims(ClaimsArgs),
     /// Ground truth of one frame to EXR.
@@ -85,6 +89,17 @@ pub(crate) struct EvaluateArgs {
     /// Small and coarse: an answer in seconds.
     #[arg(long)]
     pub(crate) quick: bool,
+    /// First pattern seed: another number draws other patterns throughout.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) first_seed: u32,
+    /// Compare with this baseline, and fail on a regression: a name under `--baselines`, or a file.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) baseline: Option<String>,
+    /// Make this run the baseline of this name; one that exists is replaced.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) save_baseline: Option<String>,
+    #[command(flatten)]
+    pub(crate) gate: GateArgs,
     /// Folder of the run.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -106,6 +121,56 @@ pub(crate) struct EvaluateArgs {
     pub(crate) report: ReportKind,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
+}
+
+/// How the gate answers.
+#[derive(Args, Debug, Clone)]
+pub(crate) struct GateArgs {
+    /// Folder of baselines.
+    #[arg(long, value_name = "DIR", default_value = "reports/baselines")]
+    pub(crate) baselines: PathBuf,
+    /// What exits with 1.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) fail_on: FailOn,
+}
+
+#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum FailOn {
+    /// A score that got worse.
+    #[default]
+    Regression,
+    /// Also one that may have, and what the baseline does not know.
+    Warn,
+    /// Nothing.
+    Never,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct CompareArgs {
+    /// The baseline: a name under `--baselines`, a file, or the folder of a run.
+    pub(crate) base: String,
+    /// Folder of the run.
+    pub(crate) run: PathBuf,
+    /// Print gate.json to standard output, and nothing else there.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Where the report's pictures go: `file` (into the page) or `dir` (beside it).
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) report: ReportKind,
+    #[command(flatten)]
+    pub(crate) gate: GateArgs,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct AcceptArgs {
+    /// Folder of the run.
+    pub(crate) run: PathBuf,
+    /// Name of the baseline; that of the run's gate otherwise.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) name: Option<String>,
+    /// Folder of baselines.
+    #[arg(long, value_name = "DIR", default_value = "reports/baselines")]
+    pub(crate) baselines: PathBuf,
 }
 
 #[derive(ValueEnum, Clone, Copy, Debug, Default)]

@@ -31,6 +31,10 @@ pub(crate) enum CliError {
     NothingScored(String),
     #[error("not a finite number: {0}")]
     NotFinite(String),
+    #[error("no baseline \"{name}\" for this adapter: there is no {}", path.display())]
+    NoBaseline { name: String, path: PathBuf },
+    #[error("{0}")]
+    Regressed(String),
     #[error("interrupted")]
     Interrupted { cache: PathBuf },
 }
@@ -42,7 +46,9 @@ impl CliError {
             Self::Usage(_)
             | Self::Scene(SceneError::UnknownName { .. })
             | Self::Shadow(ShadowError::UnknownBackend { .. } | ShadowError::WrongLight { .. }) => 2,
-            Self::NothingScored(_) => 3,
+            Self::Regressed(_) => 1,
+            Self::NothingScored(_) | Self::Report(ReportError::NotComparable(_)) => 3,
+            Self::NoBaseline { .. } => 5,
             Self::Interrupted { .. } => 130,
             _ => 4,
         }
@@ -58,6 +64,9 @@ impl CliError {
             Self::Scene(SceneError::UnknownName { kind: "scene", .. }) => {
                 Some("`umbrage list scenes` shows the standard ones; a file or folder works too".into())
             }
+            Self::NoBaseline { name, .. } => Some(format!(
+                "`umbrage evaluate --save-baseline {name}` makes one; baselines of other adapters do not count"
+            )),
             Self::NothingScored(_) => {
                 Some("look at the pictures of the report; check the camera path and the light".into())
             }

@@ -4,7 +4,9 @@ use crate::args::{EvaluateArgs, check_size};
 use crate::error::CliError;
 use crate::scenes::find_scene;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use umbrage_report::{MarginCard, Margins};
 use umbrage_scene::{Scene, SceneFile, suggest};
 use umbrage_shadows::{VARIANTS, VariantId, select_variants};
 
@@ -23,11 +25,14 @@ struct SuiteFile {
     /// Variants by name, as for `--variant`; those of the standard suite when empty.
     #[serde(default)]
     variants: Vec<String>,
+    /// What is too small to matter, by score.
+    #[serde(default)]
+    gate: BTreeMap<String, MarginCard>,
     /// Scenes and their paths.
     scene: Vec<SuiteScene>,
 }
 
-#[derive(Deserialize, Debug, Clone)]
+#[derive(Deserialize, Debug, Clone, Default)]
 #[serde(deny_unknown_fields)]
 struct SuiteScene {
     /// A standard scene, or a path beside the suite file.
@@ -35,6 +40,9 @@ struct SuiteScene {
     /// Paths through it; all of the scene's when empty.
     #[serde(default)]
     paths: Vec<String>,
+    /// What is too small to matter here, by score.
+    #[serde(default)]
+    gate: BTreeMap<String, MarginCard>,
 }
 
 /// A scene with the names of the paths that are evaluated.
@@ -53,6 +61,7 @@ pub(crate) struct Plan {
     /// Frames of each path.
     pub(crate) frames: u32,
     pub(crate) sampling: Sampling,
+    pub(crate) margins: Margins,
 }
 
 /// How large and how often: part of every score.
@@ -62,6 +71,8 @@ pub(crate) struct Sampling {
     /// Frames of a window.
     pub(crate) window: u32,
     pub(crate) seeds: u32,
+    /// Of fresh patterns.
+    pub(crate) first_seed: u32,
     /// Truth samples in each half.
     pub(crate) samples: u32,
     pub(crate) basis_samples: u32,
@@ -80,6 +91,7 @@ impl Plan {
     pub(crate) fn new(args: &EvaluateArgs) -> Result<Self, CliError> {
         let file = suite_of(args)?;
         let jobs = jobs_of(args, &file)?;
+        let margins = margins_of(&file, &jobs)?;
         let quick = args.quick;
         let frames = args.frames.unwrap_or(if quick { 8 } else { WINDOW });
         let own = file.size.map(|[w, h]| check_size((w, h))).transpose();
@@ -97,10 +109,12 @@ impl Plan {
                 size: size.unwrap_or(if quick { (192, 108) } else { (320, 180) }),
                 window: frames.min(WINDOW),
                 seeds: args.seeds.unwrap_or(4),
+                first_seed: args.first_seed,
                 samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
                 basis_samples: BASIS_SAMPLES,
                 tolerance: args.tolerance,
             },
+            margins,
         })
     }
 }
@@ -167,7 +181,7 @@ fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {
     // A standard scene brings the standard paths, anything else all of its own.
     let scene = |what: &PathBuf| {
         let known = standard.scene.iter().find(|s| s.name == *what);
-        known.cloned().unwrap_or_else(|| SuiteScene { name: what.clone(), paths: vec![] })
+        known.cloned().unwrap_or_else(|| SuiteScene { name: what.clone(), ..SuiteScene::default() })
     };
     let stem =
         |p: &PathBuf| p.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned());
@@ -176,8 +190,24 @@ fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {
         name,
         size: standard.size,
         variants: vec![],
+        gate: standard.gate.clone(),
         scene: args.what.iter().map(scene).collect(),
     })
+}
+
+/// The suite's margins; scenes by the name that they have in results.
+fn margins_of(file: &SuiteFile, jobs: &[Job]) -> Result<Margins, CliError> {
+    let mut margins = Margins { all: file.gate.clone(), ..Margins::default() };
+    for (entry, job) in file.scene.iter().filter(|s| !s.gate.is_empty()).filter_map(|entry| {
+        let named = |job: &&Job| entry.name.file_stem().is_some_and(|stem| stem == job.scene.name.as_str());
+        Some((entry, jobs.iter().find(named)?))
+    }) {
+        margins.scenes.insert(job.scene.name.clone(), entry.gate.clone());
+    }
+    match margins.problem() {
+        Some(problem) => Err(CliError::Usage(format!("[gate] of the suite \"{}\": {problem}", file.name))),
+        None => Ok(margins),
+    }
 }
 
 /// A suite names scenes; a scene file has geometry.

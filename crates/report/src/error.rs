@@ -24,6 +24,20 @@ pub enum ReportError {
         /// What is wrong with it, and what to do.
         reason: String,
     },
+    /// The file is not a baseline, not one of this version, or edited by hand.
+    #[error("{}: {reason}", path.display())]
+    Baseline {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with it, and what to do.
+        reason: String,
+    },
+    /// Two runs that differ in what they measured.
+    #[error("the runs do not compare:\n  {}", .0.join("\n  "))]
+    NotComparable(
+        /// Every reason.
+        Vec<String>,
+    ),
     /// A number that is NaN or infinite: JSON has no word for it and nobody could read it back.
     #[error("{place}: {metric} is not a finite number; nothing was written")]
     NotFinite {

@@ -9,6 +9,7 @@ mod book;
 mod card;
 mod claims;
 mod error;
+mod gate;
 mod numbers;
 mod page;
 mod picture;
@@ -28,6 +29,10 @@ pub use claims::{
     EffectKind, Outcome, PlaceEffect, Verdict, publish_claims, write_claims,
 };
 pub use error::ReportError;
+pub use gate::{
+    BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, ChangeCard, GateCard, GateCase, MarginCard,
+    Margins, Side, compare, gated, not_comparable, write_gate_crops,
+};
 pub use store::{RunWriter, VariantPictures, WindowPictures};
 pub use write::{Layout, Written, write_report};
 

@@ -2,6 +2,7 @@
 
 use crate::book::make_book;
 use crate::error::write_whole;
+use crate::gate::GateCard;
 use crate::page::page;
 use crate::store::{read_index, scorecard_path};
 use crate::tables::{junit, scores_csv, summary};
@@ -42,9 +43,11 @@ const LARGE_BYTES: usize = 10_000_000;
 /// be written.
 pub fn write_report(run: &Path, layout: Layout) -> Result<Written, ReportError> {
     let card = Scorecard::load(&scorecard_path(run))?;
+    let gate = GateCard::load(run)?;
+    let gate = gate.as_ref();
     let pictures = read_index(run)?;
     let book = make_book(run, &card, &pictures, layout)?;
-    let html = page(&card, &book);
+    let html = page(&card, &book, gate);
     let mut warnings = Vec::new();
     if pictures.windows.is_empty() {
         warnings.push("the run has no pictures: the page shows numbers only".to_string());
@@ -58,8 +61,8 @@ pub fn write_report(run: &Path, layout: Layout) -> Result<Written, ReportError> 
     let files = [
         ("index.html", html),
         ("scores.csv", scores_csv(&card)),
-        ("summary.md", summary(&card)),
-        ("junit.xml", junit(&card)),
+        ("summary.md", summary(&card, gate)),
+        ("junit.xml", junit(&card, gate)),
     ];
     let mut written = Vec::new();
     for (name, text) in files {

@@ -70,6 +70,7 @@ fn sampling(args: &ClaimsArgs) -> Sampling {
         size: args.size.unwrap_or(if quick { (192, 108) } else { (320, 180) }),
         window: if quick { 8 } else { WINDOW },
         seeds: args.seeds.unwrap_or(if quick { 2 } else { 4 }),
+        first_seed: 0,
         samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
         basis_samples: BASIS_SAMPLES,
         tolerance: None,

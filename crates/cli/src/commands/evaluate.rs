@@ -1,20 +1,23 @@
 //! `umbrage evaluate`: the main job.
 
-use super::open_gpu;
+use super::{gate, open_gpu};
 use crate::args::{EvaluateArgs, ReportKind};
 use crate::clock;
 use crate::error::CliError;
 use crate::output::print;
+use crate::run::provenance::adapter_card;
 use crate::run::{Settings, evaluate};
 use crate::suite::Plan;
 use std::path::{Path, PathBuf};
-use umbrage_report::{Layout, write_report};
+use umbrage_report::{Baseline, Layout, write_report};
+use umbrage_shadows::Gpu;
 
 pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     let plan = Plan::new(args)?;
     let now = clock::now();
     let out = args.out.clone().unwrap_or_else(|| run_folder(&plan.name, &now.folder));
     let mut gpu = open_gpu(&args.view.gpu)?;
+    missing_baseline(args, &gpu)?;
     eprintln!("adapter: {} ({})", gpu.description().name, gpu.description().device_type);
     let settings = Settings {
         cache: args.cache.clone(),
@@ -40,7 +43,18 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     if let Some(written) = pages {
         eprintln!("report: {}", written.index.display());
     }
-    Ok(())
+    let names = (args.baseline.as_ref(), args.save_baseline.as_ref());
+    gate::after_run(&out, names, &args.gate, (args.report, args.json))
+}
+
+/// A baseline that is not there is said before the work, not after it.
+fn missing_baseline(args: &EvaluateArgs, gpu: &Gpu) -> Result<(), CliError> {
+    let Some(name) = &args.baseline else { return Ok(()) };
+    let path = Baseline::path(&args.gate.baselines, name, &adapter_card(gpu));
+    match Path::new(name).exists() || path.exists() {
+        true => Ok(()),
+        false => Err(CliError::NoBaseline { name: name.clone(), path }),
+    }
 }
 
 fn pages(out: &Path, kind: ReportKind) -> Result<umbrage_report::Written, CliError> {

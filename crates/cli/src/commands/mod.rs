@@ -2,6 +2,7 @@
 
 mod claims;
 mod evaluate;
+mod gate;
 mod list;
 mod reference;
 mod render;
@@ -16,6 +17,8 @@ use umbrage_shadows::{AdapterChoice, Gpu};
 pub(crate) fn dispatch(arguments: &Arguments) -> Result<ExitCode, CliError> {
     match &arguments.command {
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Compare(args) => gate::compare_runs(args),
+        Command::Accept(args) => gate::accept(args),
         Command::Claims(args) => claims::run(args),
         Command::Reference(args) => reference::run(args),
         Command::Render(args) => render::run(args),

@@ -6,8 +6,8 @@ use crate::error::CliError;
 use std::collections::BTreeMap;
 use umbrage_frame::Image;
 use umbrage_metrics::{
-    Bootstrap, Measurement, Missing, Panel, PointMaps, Score, Tail, TileTable, Viewing, flip, grain,
-    percentile, profiles, ssim, window_grain, window_profiles, window_tails, worst_tile,
+    Bootstrap, Measurement, Missing, Panel, PointMaps, ProfileTable, Score, Tail, TileTable, Viewing, flip,
+    grain, percentile, profiles, ssim, window_grain, window_tails, worst_tile,
 };
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
@@ -23,13 +23,12 @@ pub(super) const PATTERN_SEEDS: u32 = 2;
 /// From the anchored panel: tails, widths, levels, the colour of the noise and its spectrum.
 pub(super) fn of_panel(
     window: &Window,
-    panel: &Panel,
+    (panel, table): (&Panel, &ProfileTable),
     maps: &PointMaps,
 ) -> Result<(Extras, Vec<f64>), CliError> {
     let bootstrap = Bootstrap::default();
     let tails = window_tails(maps, &window.tiling);
-    let table = window_profiles(panel, &window.truth, &window.anchors, &window.tiling)?;
-    let shape = profiles(&[&table], &bootstrap);
+    let shape = profiles(&[table], &bootstrap);
     let mut extras = BTreeMap::from([
         ("p95".to_string(), percentile(&[&tails], Tail::Error, 0.95, &bootstrap)),
         ("p99".to_string(), percentile(&[&tails], Tail::Error, 0.99, &bootstrap)),
@@ -98,7 +97,7 @@ pub(super) fn of_patterns(
             extras.insert(id.into(), Measurement::NotMeasured(Missing::OneFrame));
             continue;
         }
-        let draw = Draw { seeding, seeds: PATTERN_SEEDS, frames };
+        let draw = Draw { seeding, seeds: PATTERN_SEEDS, first_seed: 0, frames };
         let panel = shade_panel(window, (variant, renderer), reading, draw)?;
         let table = window_grain(&panel, &window.tiling)?;
         extras.insert(id.into(), grain(&[&table], &Bootstrap::default()).lag1);

@@ -9,7 +9,9 @@ use crate::suite::Sampling;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use umbrage_frame::Image;
-use umbrage_metrics::{Measurement, TileTable, point_maps, window_tiles};
+use umbrage_metrics::{
+    Measurement, SeedSpread, SumTable, TileTable, point_maps, seed_spread, window_profiles, window_tiles,
+};
 use umbrage_report::VariantPictures;
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
@@ -25,6 +27,10 @@ pub(crate) struct Measured {
 pub(crate) struct Numbers {
     /// The anchored reading.
     pub(crate) anchored: TileTable,
+    /// What the width of the penumbra is made of.
+    pub(crate) profile: SumTable,
+    /// Spread of each gated number over seeds; none with two seeds.
+    pub(crate) spread: Option<Vec<Option<SeedSpread>>>,
     /// The pixel reading; none for one frame.
     pub(crate) pixels: Option<TileTable>,
     /// What explains the scores, by metric id.
@@ -49,7 +55,8 @@ pub(super) fn measure(
     sampling: &Sampling,
 ) -> Result<Measured, CliError> {
     let seeds = if variant.info().stochastic { sampling.seeds } else { 1 };
-    let draw = Draw { seeding: Seeding::Fresh, seeds, frames: window.frames.len() };
+    let first_seed = sampling.first_seed.wrapping_mul(sampling.seeds);
+    let draw = Draw { seeding: Seeding::Fresh, seeds, first_seed, frames: window.frames.len() };
     let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
     let anchored = window_tiles(&panel, &window.truth, &window.tiling)?;
     let maps = point_maps(&panel, &window.truth, &window.tiling)?;
@@ -59,7 +66,9 @@ pub(super) fn measure(
     let values = renderer.shade_frame(variant, (view, light), shipped)?.values;
     let (width, height) = window.size();
     let mask = Image::from_pixels(width, height, values);
-    let (mut extras, noise_spectrum) = extras::of_panel(window, &panel, &maps)?;
+    let profile = window_profiles(&panel, &window.truth, &window.anchors, &window.tiling)?;
+    let spread = seed_spread(&panel, &window.truth, &window.anchors, &window.tiling)?;
+    let (mut extras, noise_spectrum) = extras::of_panel(window, (&panel, &profile), &maps)?;
     extras.extend(extras::of_picture(window, &mask));
     extras.insert("worst_tile".into(), extras::worst(&anchored)?);
     drop(panel);
@@ -74,5 +83,8 @@ pub(super) fn measure(
         }
     };
     let pictures = pictures::variant(window, mask, &maps);
-    Ok(Measured { numbers: Numbers { anchored, pixels, extras, noise_spectrum }, pictures })
+    Ok(Measured {
+        numbers: Numbers { anchored, profile: profile.sum_table(), spread, pixels, extras, noise_spectrum },
+        pictures,
+    })
 }

@@ -7,6 +7,7 @@ pub(crate) mod panel;
 mod pictures;
 pub(crate) mod provenance;
 mod scorecard;
+pub(crate) mod sums;
 pub(crate) mod unit;
 pub(crate) mod window;
 
@@ -88,6 +89,7 @@ pub(crate) fn evaluate(
     run.progress.finish();
     keep_made_files(plan, settings)?;
     let card = scorecard::assemble(plan, settings, (gpu, &scored, &costs), &run.bootstrap)?;
+    sums::of(plan, &card.provenance, &scored).save(&settings.out.join(sums::FILE))?;
     let warnings = warnings(&scored);
     run.writer.finish(&card)?;
     if scored.iter().all(|s| s.window.coverage.counted == 0) {

@@ -21,6 +21,8 @@ pub(crate) enum Reading {
 pub(crate) struct Draw {
     pub(crate) seeding: Seeding,
     pub(crate) seeds: u32,
+    /// Of fresh patterns; as they ship they begin at 0.
+    pub(crate) first_seed: u32,
     pub(crate) frames: usize,
 }
 
@@ -46,7 +48,8 @@ pub(crate) fn shade_panel(
         };
         for seed in 0..draw.seeds {
             // Scores draw afresh in each window; a pattern as it ships has seed 0.
-            let salt = if draw.seeding == Seeding::Fresh { window.salt() } else { 0 };
+            let salt =
+                if draw.seeding == Seeding::Fresh { window.salt().wrapping_add(draw.first_seed) } else { 0 };
             let pattern = (draw.seeding, [window.first + frame as u32, salt.wrapping_add(seed)]);
             match &pixels {
                 None => values.extend(renderer.shade_anchors(variant, (view, light), pattern)?.values),

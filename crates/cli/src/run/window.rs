@@ -62,6 +62,8 @@ pub(crate) struct Facts {
     pub(crate) title: String,
     pub(crate) coverage: Coverage,
     pub(crate) tiles: usize,
+    /// Hash over the cameras and the light of every frame.
+    pub(crate) views: String,
     pub(crate) truth_secs: Option<f64>,
     pub(crate) notes: Vec<String>,
 }
@@ -198,6 +200,11 @@ impl Window {
     }
 
     /// For the scorecard.
+    fn views_hash(&self) -> String {
+        let text: String = self.frames.iter().map(|(view, light)| format!("{view:?} {light:?}\n")).collect();
+        blake3::hash(text.as_bytes()).to_hex().chars().take(16).collect()
+    }
+
     pub(crate) fn facts(&self, path: &CameraPath) -> Facts {
         Facts {
             scene: self.scene.clone(),
@@ -207,6 +214,7 @@ impl Window {
             title: path.title.clone(),
             coverage: self.coverage,
             tiles: self.tiling.tiles.iter().filter(|t| !t.penumbra.is_empty()).count(),
+            views: self.views_hash(),
             truth_secs: self.truth_secs,
             notes: self.notes.clone(),
         }

@@ -157,6 +157,43 @@ impl PooledNumber {
         }
     }
 
+    /// The number that is linear in the sums: MSE for ERROR, otherwise itself.
+    pub(crate) fn squared(self) -> Self {
+        if self == Self::Cell(Quantity::Error) { Self::Cell(Quantity::Mse) } else { self }
+    }
+
+    /// How much each window counts in the number of all (they add up to 1).
+    pub(crate) fn weights(self, windows: &[&SumTable]) -> Vec<f64> {
+        let slot = match self {
+            Self::Cell(quantity @ (Quantity::LightLeak | Quantity::FalseShadow)) => quantity.seen_by()[0],
+            Self::WidthRatio => PROFILE_SUMS[0],
+            _ => return vec![1.0 / windows.len().max(1) as f64; windows.len()],
+        };
+        let points: Vec<f64> = windows.iter().map(|t| t.rows.iter().map(|(.., s)| s[slot]).sum()).collect();
+        let total: f64 = points.iter().sum();
+        points.iter().map(|p| p / total).collect()
+    }
+
+    /// The number of some windows; none where they do not say.
+    pub fn of(self, windows: &[&SumTable]) -> Option<f64> {
+        let seen: Vec<&SumTable> = windows.iter().copied().filter(|t| self.is_seen_in(t)).collect();
+        let sum = |table: &&SumTable| {
+            let width = table.rows.first().map_or(0, |(.., s)| s.len());
+            table.rows.iter().fold(vec![0.0; width], |mut total, (.., sums)| {
+                add(&mut total, 0, sums);
+                total
+            })
+        };
+        let sums: Vec<Vec<f64>> = seen.iter().map(sum).collect();
+        let value = self.value(&sums, &self.classes(&seen));
+        (!sums.is_empty() && value.is_finite()).then_some(value)
+    }
+
+    /// Whether a window says anything about this number.
+    pub(crate) fn is_seen_in(self, table: &SumTable) -> bool {
+        table.rows.iter().any(|(.., sums)| self.is_seen(sums))
+    }
+
     /// The number of these windows' sums; NaN where they do not say.
     fn value(self, windows: &[Vec<f64>], seen: &[usize]) -> f64 {
         let mean = |of: &dyn Fn(&[f64]) -> f64| {
@@ -202,6 +239,21 @@ impl ProfileTable {
     /// The sums from which the shape of the penumbra follows.
     pub fn sum_table(&self) -> SumTable {
         SumTable { rows: self.rows().to_vec() }
+    }
+}
+
+impl SumTable {
+    /// The sums of squares of `side` x `side` tiles, in row order: what intervals are drawn over, and all
+    /// that a comparison needs. Resample the result with clusters of one tile.
+    pub fn clustered(&self, side: u32) -> Self {
+        let side = side.max(1);
+        let mut clusters: std::collections::BTreeMap<(u32, u32), Vec<f64>> = Default::default();
+        for (column, row, sums) in &self.rows {
+            let cluster =
+                clusters.entry((row / side, column / side)).or_insert_with(|| vec![0.0; sums.len()]);
+            cluster.iter_mut().zip(sums).for_each(|(c, s)| *c += s);
+        }
+        Self { rows: clusters.into_iter().map(|((row, column), sums)| (column, row, sums)).collect() }
     }
 }
 

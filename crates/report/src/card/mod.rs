@@ -6,6 +6,8 @@ mod provenance;
 mod results;
 mod subjects;
 
+pub(crate) use measured::ScoreSchema;
+
 pub use measured::{Direction, Measured, MetricCard};
 pub use provenance::{AdapterCard, Provenance, SceneCard, TruthCard};
 pub use results::{Cost, OverallCard, PairedCard, PassCost, ResultCard};

@@ -35,7 +35,7 @@ impl Crop {
     }
 
     /// As a PNG file.
-    pub(super) fn png(&self, name: &str) -> Result<Vec<u8>, ReportError> {
+    pub(crate) fn png(&self, name: &str) -> Result<Vec<u8>, ReportError> {
         let size = |of: fn(&Image<f32>) -> u32| self.panels.iter().map(|p| of(&p.plane)).max().unwrap_or(1);
         let (width, height) = (size(Image::width) * TIMES, size(Image::height) * TIMES);
         let count = self.panels.len().max(1) as u32;

@@ -1,6 +1,8 @@
 //! The head: what this page is about, and how far it reaches.
 
+use super::gate::chip;
 use crate::Scorecard;
+use crate::gate::GateCard;
 use crate::numbers::{free_number, percent};
 use crate::words::scored;
 use maud::{Markup, html};
@@ -15,13 +17,16 @@ const SECTIONS: [(&str, &str); 7] = [
     ("definitions", "Definitions"),
 ];
 
-pub(super) fn head(card: &Scorecard) -> Markup {
+pub(super) fn head(card: &Scorecard, gate: Option<&GateCard>) -> Markup {
     let p = &card.provenance;
     html! {
         header {
             nav aria-label="Sections" {
                 span.mark-name { "Umbrage" }
-                @for (id, name) in SECTIONS { a href={ "#" (id) } { (name) } }
+                @for (id, name) in SECTIONS {
+                    @if id == "provenance" && gate.is_some() { a href="#gate" { "Gate" } }
+                    a href={ "#" (id) } { (name) }
+                }
             }
             h1 { "Soft shadows against the truth" }
             p.subject {
@@ -29,6 +34,7 @@ pub(super) fn head(card: &Scorecard) -> Markup {
                 @if card.windows.len() == 1 { " window" } @else { " windows" }
                 " · " (p.date)
             }
+            @if let Some(gate) = gate { p { a href="#gate" { (chip(gate)) } } }
             dl.facts {
                 (fact("Adapter", html! { (p.adapter.name) @if p.adapter.is_cpu { " (software)" } }))
                 (fact("Driver", html! { (p.adapter.backend) ", " (p.adapter.driver) }))

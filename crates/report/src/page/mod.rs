@@ -5,6 +5,7 @@
 
 mod columns;
 mod definitions;
+mod gate;
 mod head;
 mod provenance;
 mod scenes;
@@ -12,6 +13,7 @@ mod table;
 
 use crate::Scorecard;
 use crate::book::Book;
+use crate::gate::GateCard;
 use crate::picture::HATCH;
 use crate::plot::{pareto, per_frame, spectrum};
 use crate::words::answer;
@@ -24,7 +26,7 @@ const POLICY: &str = "default-src 'none'; img-src data: file: 'self'; style-src 
                       script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
 
 /// The whole page.
-pub(crate) fn page(card: &Scorecard, book: &Book) -> String {
+pub(crate) fn page(card: &Scorecard, book: &Book, gate: Option<&GateCard>) -> String {
     let hatch = HATCH.map(|[r, g, b]| format!("rgb({r} {g} {b})"));
     let hatch = format!(
         ".hatch{{background:repeating-linear-gradient(135deg,{0} 0 3px,{1} 3px 6px)}}",
@@ -45,13 +47,14 @@ pub(crate) fn page(card: &Scorecard, book: &Book) -> String {
                 style { (PreEscaped(STYLE)) (PreEscaped(bars)) (PreEscaped(hatch)) }
             }
             body {
-                (head::head(card))
+                (head::head(card, gate))
                 main {
                     (answers(card))
                     (table::section(card))
                     (cost(card))
                     (scenes::section(card, book))
                     (time(card))
+                    @if let Some(gate) = gate { (gate::section(gate)) }
                     (provenance::section(card))
                     (definitions::section(card))
                 }

@@ -1,12 +1,17 @@
 //! `summary.md`: the answer and the table, for a CI step summary or a pull request.
 
 use super::escape::markdown;
+use crate::gate::GateCard;
 use crate::numbers::free_score_about;
 use crate::words::{Comparison, Sentence, Span, answer, plain_line};
 use crate::{Measured, Scorecard};
+use umbrage_metrics::Verdict;
 
 /// Step summaries above 1 MiB are cut off entirely; room is left for what others write there.
 const MOST_BYTES: usize = 900 * 1024;
+
+/// Failures that are written out.
+const MOST_FAILURES: usize = 30;
 
 /// Columns: metric id and head.
 const COLUMNS: [(&str, &str); 6] = [
@@ -18,11 +23,12 @@ const COLUMNS: [(&str, &str); 6] = [
     ("width_ratio", "width"),
 ];
 
-pub(crate) fn summary(card: &Scorecard) -> String {
+pub(crate) fn summary(card: &Scorecard, gate: Option<&GateCard>) -> String {
     let sentences = answer(card);
     let mut text = String::from("## Umbrage: ");
     text += &markdown(&card.provenance.suite);
     text += "\n\n";
+    text += &gate.map(verdict).unwrap_or_default();
     for (i, sentence) in sentences.iter().enumerate() {
         text += &match i {
             0 => format!("**{}**\n\n", spans(sentence, false)),
@@ -41,6 +47,26 @@ pub(crate) fn summary(card: &Scorecard) -> String {
         p.seeds,
     );
     text + &facts
+}
+
+/// What the gate says, the failures first.
+fn verdict(gate: &GateCard) -> String {
+    let mut text = format!("**Gate against {}: {}**\n\n", markdown(&gate.baseline), gate.counts());
+    let failed: Vec<_> = gate.with(Verdict::Regressed).collect();
+    for (case, _) in failed.iter().take(MOST_FAILURES) {
+        let head = format!("{}, {}: {}", case.place(), case.variant, case.sentence());
+        text += &format!("- {}\n", markdown(&head));
+        for line in case.details(gate) {
+            text += &format!("  - {}\n", markdown(&line));
+        }
+    }
+    if failed.len() > MOST_FAILURES {
+        text += &format!("- {} more are in junit.xml\n", failed.len() - MOST_FAILURES);
+    }
+    if !gate.new.is_empty() {
+        text += &format!("- not in the baseline: {}\n", markdown(&gate.new.join(", ")));
+    }
+    text + "\n"
 }
 
 /// Numbers in bold, unless all of it is.

@@ -1,0 +1,183 @@
+//! `umbrage compare`, `umbrage accept`, and what `umbrage evaluate --baseline` does after a run.
+
+use super::evaluate::layout;
+use crate::args::{AcceptArgs, CompareArgs, FailOn, GateArgs, ReportKind};
+use crate::error::CliError;
+use crate::output::print;
+use crate::run::sums::FILE;
+use std::path::{Path, PathBuf};
+use umbrage_metrics::Verdict;
+use umbrage_report::{
+    AdapterCard, Baseline, GateCard, GateCase, Scorecard, compare, write_gate_crops, write_report,
+};
+
+/// `umbrage compare BASE RUN`.
+pub(crate) fn compare_runs(args: &CompareArgs) -> Result<(), CliError> {
+    let card = gate(&args.base, &args.run, &args.gate)?;
+    let written = write_report(&args.run, layout(args.report))?;
+    if args.json {
+        let text = serde_json::to_string_pretty(&card);
+        print(&text.map_err(|e| CliError::Usage(e.to_string()))?)?;
+    }
+    answer(&card, &args.gate, args.json)?;
+    eprintln!("report: {}", written.index.display());
+    outcome(&card, &args.gate)
+}
+
+/// `umbrage accept RUN`.
+pub(crate) fn accept(args: &AcceptArgs) -> Result<(), CliError> {
+    let gated = GateCard::load(&args.run)?;
+    let name = args.name.clone().or_else(|| gated.map(|g| g.baseline)).ok_or_else(|| {
+        CliError::Usage(format!(
+            "{} was compared with no baseline: say which it becomes with --name",
+            args.run.display()
+        ))
+    })?;
+    print(&save(&args.run, &name, &args.baselines)?.display().to_string())
+}
+
+/// Makes a run the baseline of a name; where it lies.
+pub(super) fn save(run: &Path, name: &str, baselines: &Path) -> Result<PathBuf, CliError> {
+    let safe = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+    if !safe {
+        return Err(CliError::Usage(format!(
+            "\"{name}\" is no name of a baseline: letters, digits, - and _ are"
+        )));
+    }
+    let sums = Baseline::load(&run.join(FILE))?;
+    std::fs::create_dir_all(baselines).map_err(CliError::file(baselines))?;
+    let path = Baseline::path(baselines, name, &sums.provenance.adapter);
+    sums.save(&path)?;
+    Ok(path)
+}
+
+/// Judges a run, and stores what was found in its folder.
+pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, CliError> {
+    let sums = Baseline::load(&run.join(FILE))?;
+    let (baseline, name) = find(base, &sums.provenance.adapter, &args.baselines)?;
+    let mut card = compare(&baseline, &sums)?;
+    card.baseline = name.clone();
+    let folder = match args.baselines.to_str() {
+        Some("reports/baselines") | None => String::new(),
+        Some(other) => format!(" --baselines {other}"),
+    };
+    card.accept = format!("umbrage accept {} --name {name}{folder}", run.display());
+    let provenance = sums.provenance;
+    for case in &mut card.cases {
+        case.reproduce = reproduce(case, &provenance.command, base);
+    }
+    let scores = Scorecard::load(&run.join("scorecard.json"))?;
+    write_gate_crops(run, &mut card, &scores)?;
+    card.save(run)?;
+    Ok(card)
+}
+
+/// The run's own command, narrowed down to one case.
+fn reproduce(case: &GateCase, command: &str, base: &str) -> Option<String> {
+    let (scene, path) = (case.scene.as_ref()?, case.path.as_ref()?);
+    let mut words: Vec<&str> = Vec::new();
+    let mut all = command.split(' ');
+    while let Some(word) = all.next() {
+        match word {
+            "--scene" | "--path" | "--variant" | "--baseline" | "--save-baseline" | "--out" => {
+                all.next();
+            }
+            word if ["--scene=", "--path=", "--variant=", "--baseline=", "--save-baseline=", "--out="]
+                .iter()
+                .any(|flag| word.starts_with(flag)) => {}
+            word => words.push(word),
+        }
+    }
+    let narrowed = words.join(" ");
+    Some(format!("{narrowed} --scene {scene} --path {path} --variant {}", case.variant))
+        .filter(|_| !base.is_empty())
+}
+
+/// By name, as a file, or the sums of another run; and what to call it.
+fn find(base: &str, adapter: &AdapterCard, baselines: &Path) -> Result<(Baseline, String), CliError> {
+    let path = Path::new(base);
+    let stem = || path.file_stem().map_or_else(|| base.into(), |s| s.to_string_lossy().into_owned());
+    if path.is_dir() {
+        return Ok((Baseline::load(&path.join(FILE))?, stem()));
+    }
+    if path.is_file() {
+        // "standard.vulkan-llvmpipe" is the baseline "standard".
+        let name = stem();
+        let name = name.split('.').next().unwrap_or(&name).to_string();
+        return Ok((Baseline::load(path)?, name));
+    }
+    let path = Baseline::path(baselines, base, adapter);
+    if !path.exists() {
+        return Err(CliError::NoBaseline { name: base.into(), path });
+    }
+    Ok((Baseline::load(&path)?, base.into()))
+}
+
+/// Says what was found, and marks it for GitHub where that is what runs this.
+pub(super) fn answer(card: &GateCard, args: &GateArgs, quiet: bool) -> Result<(), CliError> {
+    eprintln!("gate against {}: {}", card.baseline, card.counts());
+    for (case, _) in card.with(Verdict::Regressed) {
+        eprintln!("regressed: {}, {}: {}", case.place(), case.variant, case.sentence());
+        for line in case.details(card) {
+            eprintln!("  {line}");
+        }
+    }
+    if !card.new.is_empty() {
+        eprintln!("not in the baseline: {}", card.new.join(", "));
+    }
+    if std::env::var_os("GITHUB_ACTIONS").is_none() || quiet {
+        return Ok(());
+    }
+    let level = if args.fail_on == FailOn::Never { "warning" } else { "error" };
+    for (case, _) in card.with(Verdict::Regressed).take(MOST_ANNOTATIONS) {
+        print(&annotation(level, case))?;
+    }
+    Ok(())
+}
+
+/// GitHub shows ten of a kind for a step.
+const MOST_ANNOTATIONS: usize = 10;
+
+/// A workflow command: what ends a property or the line is written as a percent code.
+fn annotation(level: &str, case: &GateCase) -> String {
+    let data = |text: &str| text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");
+    let property = |text: &str| data(text).replace(':', "%3A").replace(',', "%2C");
+    let title = format!("{} regressed: {}, {}", case.metric, case.place(), case.variant);
+    format!("::{level} title={}::{}", property(&title), data(&case.sentence()))
+}
+
+/// An error where the gate is shut.
+pub(super) fn outcome(card: &GateCard, args: &GateArgs) -> Result<(), CliError> {
+    let regressed = card.with(Verdict::Regressed).count();
+    let unsure = card.with(Verdict::Inconclusive).count() + card.new.len();
+    let shut = match args.fail_on {
+        FailOn::Never => false,
+        FailOn::Regression => regressed > 0,
+        FailOn::Warn => regressed + unsure > 0,
+    };
+    if !shut {
+        return Ok(());
+    }
+    Err(CliError::Regressed(match regressed {
+        0 => format!("{} against {} (--fail-on warn)", card.counts(), card.baseline),
+        n => format!("{n} scores regressed against {}; to accept them: {}", card.baseline, card.accept),
+    }))
+}
+
+/// After a run: the gate, then the pages with its answer, then the new baseline.
+pub(super) fn after_run(
+    run: &Path,
+    (baseline, save_as): (Option<&String>, Option<&String>),
+    args: &GateArgs,
+    (kind, quiet): (ReportKind, bool),
+) -> Result<(), CliError> {
+    let card = baseline.map(|base| gate(base, run, args)).transpose()?;
+    if let Some(card) = &card {
+        write_report(run, layout(kind))?;
+        answer(card, args, quiet)?;
+    }
+    if let Some(name) = save_as {
+        eprintln!("baseline: {}", save(run, name, &args.baselines)?.display());
+    }
+    card.map_or(Ok(()), |card| outcome(&card, args))
+}

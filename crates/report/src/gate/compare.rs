@@ -1,0 +1,207 @@
+//! A run against a baseline.
+
+use super::baseline::{Baseline, BaselineSums, BaselineWindow, adapter_class};
+use super::card::{GateCard, GateCase, Side};
+use super::margins::gated;
+use crate::{Provenance, ReportError};
+use umbrage_metrics::{PooledNumber, SeedSpread, SumKind, SumTable, Trial, judge, pooled_reading};
+
+/// Why two runs do not compare: every reason, not the first.
+pub fn not_comparable(base: &Baseline, run: &Baseline) -> Vec<String> {
+    let mut reasons = Vec::new();
+    let (b, r) = (&base.provenance, &run.provenance);
+    let mut differ = |what: &str, base: String, run: String| {
+        if base != run {
+            reasons.push(format!("{what}: {base} in the baseline, {run} in the run"));
+        }
+    };
+    differ("adapter", adapter_class(&b.adapter), adapter_class(&r.adapter));
+    differ("picture", size(b), size(r));
+    differ("frames of a window", b.frames.to_string(), r.frames.to_string());
+    differ("seeds", b.seeds.to_string(), r.seeds.to_string());
+    differ("side of a tile", b.tile_px.to_string(), r.tile_px.to_string());
+    differ("side of the shadow map", b.shadow_map_texels.to_string(), r.shadow_map_texels.to_string());
+    differ("samples of truth", b.truth.samples_per_half.to_string(), r.truth.samples_per_half.to_string());
+    differ("truth", b.truth.method.clone(), r.truth.method.clone());
+    for scene in &b.scenes {
+        if let Some(now) = r.scenes.iter().find(|s| s.name == scene.name) {
+            differ(
+                &format!("content of scene {}", scene.name),
+                short(&scene.content_hash),
+                short(&now.content_hash),
+            );
+        }
+    }
+    if base.sums.iter().chain(&run.sums).any(|s| s.spread.is_empty()) {
+        reasons.push("with 2 seeds nothing is known about their spread: `--seeds 3` or more".into());
+    }
+    for window in &base.windows {
+        let place = format!("{}, {} from frame {}", window.scene, window.path, window.first_frame);
+        match run.windows.iter().find(|w| w.same_place(window)) {
+            None => reasons.push(format!("{place} is in the baseline and not in the run")),
+            Some(now) if now.views != window.views => {
+                reasons.push(format!("{place}: cameras or light differ"))
+            }
+            Some(now) if now.clusters != window.clusters => {
+                reasons.push(format!("{place}: other tiles are scored; truth or scene changed"));
+            }
+            Some(_) => {}
+        }
+    }
+    for variant in base.variants.iter().filter(|v| !run.variants.contains(v)) {
+        reasons.push(format!("{variant} is in the baseline and not in the run"));
+    }
+    reasons
+}
+
+fn size(p: &Provenance) -> String {
+    format!("{}x{}", p.width, p.height)
+}
+
+fn short(hash: &str) -> String {
+    hash.chars().take(12).collect()
+}
+
+impl BaselineWindow {
+    fn same_place(&self, other: &Self) -> bool {
+        (&self.scene, &self.path, self.first_frame, self.frames)
+            == (&other.scene, &other.path, other.first_frame, other.frames)
+    }
+}
+
+/// A variant in a window on both sides.
+struct Pair<'a> {
+    window: &'a BaselineWindow,
+    sums: [&'a BaselineSums; 2],
+    /// Cells, profile; base, run.
+    tables: [[SumTable; 2]; 2],
+}
+
+/// Judges every score of every variant in every window and over all of them. The margins are the run's.
+///
+/// # Errors
+/// Runs that do not compare ([`not_comparable`]), or points that differ.
+pub fn compare(base: &Baseline, run: &Baseline) -> Result<GateCard, ReportError> {
+    let reasons = not_comparable(base, run);
+    if !reasons.is_empty() {
+        return Err(ReportError::NotComparable(reasons));
+    }
+    let mut run = run.clone();
+    run.round();
+    let mut cases = Vec::new();
+    let mut trials = Vec::new();
+    let pairs: Vec<Vec<Pair>> =
+        base.variants.iter().map(|v| pairs(base, &run, v)).collect::<Result<_, _>>()?;
+    for (variant, pairs) in base.variants.iter().zip(&pairs) {
+        for (metric, number) in gated() {
+            for (index, pair) in pairs.iter().enumerate() {
+                let margin = run.margins.of(Some(&pair.window.scene), number);
+                let [base, now] = [0, 1].map(|side| pooled_reading(number, &[pair.table(number, side)]));
+                trials.push(Trial { number, base, now, margin });
+                cases.push((variant, metric, Some(index)));
+            }
+            if pairs.len() > 1 {
+                let all = |side| {
+                    let windows: Vec<_> = pairs.iter().map(|p| p.table(number, side)).collect();
+                    pooled_reading(number, &windows)
+                };
+                let margin = run.margins.of(None, number);
+                trials.push(Trial { number, base: all(0), now: all(1), margin });
+                cases.push((variant, metric, None));
+            }
+        }
+    }
+    let changes = judge(&trials).map_err(|e| ReportError::NotComparable(vec![e.to_string()]))?;
+    let place = |v: &String| base.variants.iter().position(|b| b == v).unwrap_or_default();
+    let cases =
+        cases.into_iter().zip(changes).zip(&trials).map(|(((variant, metric, index), change), trial)| {
+            let pair = index.map(|i| &pairs[place(variant)][i]);
+            let cluster = pair.and_then(|p| p.worst_cluster(trial.number)).map(|[c, r]| {
+                // A cluster is 2x2 tiles.
+                let side = 2 * base.provenance.tile_px;
+                [c * side, r * side, side, side]
+            });
+            GateCase {
+                scene: pair.map(|p| p.window.scene.clone()),
+                path: pair.map(|p| p.window.path.clone()),
+                first_frame: pair.map(|p| p.window.first_frame),
+                variant: variant.clone(),
+                metric: metric.into(),
+                worst_frame: pair.and_then(Pair::worst_frame),
+                worst_place: cluster,
+                change: change.map(Into::into),
+                reproduce: None,
+                crop: None,
+            }
+        });
+    let cases = cases.collect();
+    let new = new_things(base, &run);
+    let [base, run] = [&base.provenance, &run.provenance].map(Side::from);
+    Ok(GateCard { base, run, baseline: String::new(), accept: String::new(), new, cases })
+}
+
+fn pairs<'a>(base: &'a Baseline, run: &'a Baseline, variant: &str) -> Result<Vec<Pair<'a>>, ReportError> {
+    let lost = || ReportError::NotComparable(vec![format!("{variant}: no sums in the run")]);
+    let place = |b: &Baseline| b.variants.iter().position(|v| v == variant);
+    let (Some(v), Some(w)) = (place(base), place(run)) else { return Err(lost()) };
+    let mut pairs = Vec::new();
+    for (i, window) in base.windows.iter().enumerate() {
+        let j = run.windows.iter().position(|w| w.same_place(window)).ok_or_else(lost)?;
+        // A window that was refused has no sums on either side.
+        let sums = match (base.sums_of(i, v), run.sums_of(j, w)) {
+            (Some(a), Some(b)) => [a, b],
+            (None, _) => continue,
+            (Some(_), None) => {
+                let reason =
+                    format!("{variant} was scored in {}, {} and is not now", window.scene, window.path);
+                return Err(ReportError::NotComparable(vec![reason]));
+            }
+        };
+        let table =
+            |rows: fn(&BaselineSums) -> &[Vec<f64>]| sums.map(|s| BaselineSums::table(rows(s), window));
+        let tables = [table(|s| &s.cells), table(|s| &s.profile)];
+        let counts = |t: &SumTable| t.rows.iter().map(|(.., s)| s[..3].to_vec()).collect::<Vec<_>>();
+        if counts(&tables[0][0]) != counts(&tables[0][1]) {
+            let reason = format!("{}, {}: other points are scored; truth changed", window.scene, window.path);
+            return Err(ReportError::NotComparable(vec![reason]));
+        }
+        pairs.push(Pair { window, sums, tables });
+    }
+    Ok(pairs)
+}
+
+impl Pair<'_> {
+    fn table(&self, number: PooledNumber, side: usize) -> (&SumTable, Option<SeedSpread>) {
+        let table = &self.tables[usize::from(number.kind() == SumKind::Profile)][side];
+        let index = gated().position(|(_, n)| n == number);
+        let spread = index.and_then(|i| *self.sums[side].spread.get(i)?);
+        (table, spread.map(|[variance, freedom]| SeedSpread { variance, freedom }))
+    }
+
+    /// The cluster without which the number would be harmed least.
+    fn worst_cluster(&self, number: PooledNumber) -> Option<[u32; 2]> {
+        let [base, now] = [0, 1].map(|side| self.table(number, side).0);
+        let without = |table: &SumTable, skip: usize| -> Option<f64> {
+            let rows =
+                table.rows.iter().enumerate().filter(|(i, _)| *i != skip).map(|(_, r)| r.clone()).collect();
+            number.of(&[&SumTable { rows }])
+        };
+        let harm = |skip: usize| Some(without(now, skip)? - without(base, skip)?);
+        let places = base.rows.iter().enumerate().filter_map(|(i, &(c, r, _))| Some((harm(i)?, [c, r])));
+        places.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place)
+    }
+
+    /// The frame that adds most to the motion that was not there.
+    fn worst_frame(&self) -> Option<u32> {
+        let [base, now] = self.sums.map(|s| &s.per_frame);
+        let harm = now.iter().zip(base).map(|(n, b)| n - b);
+        let worst = harm.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (worst.1 > 0.0).then(|| self.window.first_frame + worst.0 as u32)
+    }
+}
+
+fn new_things(base: &Baseline, run: &Baseline) -> Vec<String> {
+    let variants = run.variants.iter().filter(|v| !base.variants.contains(v)).cloned();
+    let windows = run.windows.iter().filter(|w| !base.windows.iter().any(|b| b.same_place(w)));
+    variants.chain(windows.map(|w| format!("{}, {} from frame {}", w.scene, w.path, w.first_frame))).collect()
+}

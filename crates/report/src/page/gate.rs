@@ -1,0 +1,84 @@
+//! What the gate says.
+
+use crate::gate::{ChangeCard, GateCard, GateCase, short};
+use maud::{Markup, html};
+use umbrage_metrics::Verdict;
+
+/// Rows that are shown of those that did not change.
+const MOST_QUIET: usize = 400;
+
+/// One word for the whole gate.
+pub(super) fn chip(gate: &GateCard) -> Markup {
+    let count = |verdict| gate.with(verdict).count();
+    let (regressed, improved) = (count(Verdict::Regressed), count(Verdict::Improved));
+    let (class, word) = match (regressed, improved) {
+        (0, 0) => ("chip same", "Nothing regressed".to_string()),
+        (0, n) => ("chip good", format!("{n} improved, nothing regressed")),
+        (n, _) => ("chip bad", format!("{n} regressed")),
+    };
+    html! { span class=(class) { (word) " against " (gate.baseline) } }
+}
+
+pub(super) fn section(gate: &GateCard) -> Markup {
+    use Verdict::{Improved, Inconclusive, Regressed, Unchanged};
+    html! {
+        section #gate {
+            h2 { "Gate" }
+            p.lede {
+                "Compared with " (gate.baseline) " (umbrage " (gate.base.tool_version) ", " (gate.base.date) "): " (gate.counts())
+                ". Same tiles, seeds and frames on both sides; what may fail is corrected for the number of comparisons. "
+                "Accept this run with " code { (gate.accept) } "."
+            }
+            @if !gate.new.is_empty() { p.note { "Not in the baseline: " (gate.new.join(", ")) "." } }
+            @for (verdict, title, open) in [
+                (Regressed, "Regressed", true),
+                (Improved, "Improved", true),
+                (Inconclusive, "Inconclusive", false),
+                (Unchanged, "Unchanged", false),
+            ] {
+                @let cases: Vec<_> = gate.with(verdict).collect();
+                @if !cases.is_empty() {
+                    details open[open] {
+                        summary { (title) " (" (cases.len()) ")" }
+                        (table(gate, &cases))
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {
+    html! {
+        div.wide { table.plain.gate {
+            thead { tr {
+                th { "where" } th { "variant" } th { "score" }
+                th.num { "baseline" } th.num { "now" } th.num { "worse by" } th.num { "95 %" }
+                th.num { "margin" } th.num { "would pass at" } th.num { "caught from" } th { "" }
+            } }
+            tbody {
+                @for (case, c) in cases.iter().take(MOST_QUIET) { tr {
+                    td { (case.place()) } td { (case.variant) } td { (case.metric.replace('_', " ")) }
+                    td.num { (short(c.base)) } td.num { (short(c.now)) } td.num { (short(c.harm.value)) }
+                    td.num { (short(c.harm.low)) " to " (short(c.harm.high)) }
+                    td.num { (short(c.margin)) } td.num { (short(c.would_pass_at)) } td.num { (short(c.caught)) }
+                    td { (more(gate, case, c)) }
+                } }
+            }
+        } }
+        @if cases.len() > MOST_QUIET { p.note { (cases.len() - MOST_QUIET) " more are in gate.json." } }
+    }
+}
+
+fn more(gate: &GateCard, case: &GateCase, change: &ChangeCard) -> Markup {
+    html! {
+        @match change.verdict {
+            Verdict::Regressed => details {
+                summary { "where, how" }
+                ul { @for line in case.details(gate) { li { (line) } } }
+            },
+            Verdict::Inconclusive => @if let Some(times) = change.needs_times { (format!("{times:.1} x the seeds would decide")) },
+            _ => {},
+        }
+    }
+}
