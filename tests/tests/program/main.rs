@@ -6,6 +6,7 @@ mod bad_scenes;
 mod claims;
 mod commands;
 mod dump;
+mod gate;
 mod models;
 mod outputs;
 mod recompute;
