@@ -92,6 +92,9 @@ pub(crate) struct EvaluateArgs {
     /// First pattern seed: another number draws other patterns throughout.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) first_seed: u32,
+    /// A fault to put in on purpose: what the gate's error rates are measured with.
+    #[arg(long, value_enum, hide = true)]
+    pub(crate) plant: Option<Plant>,
     /// Compare with this baseline, and fail on a regression: a name under `--baselines`, or a file.
     #[arg(long, value_name = "NAME")]
     pub(crate) baseline: Option<String>,
@@ -121,6 +124,17 @@ pub(crate) struct EvaluateArgs {
     pub(crate) report: ReportKind,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
+}
+
+/// Faults that a gate has to find (docs/ci.md).
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Plant {
+    /// The shadow map is looked up half a texel off.
+    HalfTexel,
+    /// The frame in the middle of each window has no shadows.
+    BrokenFrame,
+    /// Variants take the light for 2 % smaller than it is.
+    NarrowPenumbra,
 }
 
 /// How the gate answers.

@@ -1,6 +1,6 @@
 //! What is evaluated: scenes with their paths, and how large and long.
 
-use crate::args::{EvaluateArgs, check_size};
+use crate::args::{EvaluateArgs, Plant, check_size};
 use crate::error::CliError;
 use crate::scenes::find_scene;
 use serde::Deserialize;
@@ -78,6 +78,8 @@ pub(crate) struct Sampling {
     pub(crate) basis_samples: u32,
     /// Standard error of truth that is wanted at each point.
     pub(crate) tolerance: Option<f32>,
+    /// A fault to put in on purpose.
+    pub(crate) plant: Option<Plant>,
 }
 
 /// Frames of a window, unless the path is shorter (METRICS: T is part of the score).
@@ -113,6 +115,7 @@ impl Plan {
                 samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
                 basis_samples: BASIS_SAMPLES,
                 tolerance: args.tolerance,
+                plant: args.plant,
             },
             margins,
         })

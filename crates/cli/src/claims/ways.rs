@@ -33,7 +33,8 @@ fn fresh(
     (reading, sampling): (Reading, &Sampling),
 ) -> Result<Panel, CliError> {
     let seeds = if variant.info().stochastic { sampling.seeds } else { 1 };
-    let draw = Draw { seeding: Seeding::Fresh, seeds, first_seed: 0, frames: window.frames.len() };
+    let draw =
+        Draw { seeding: Seeding::Fresh, seeds, first_seed: 0, frames: window.frames.len(), plant: None };
     shade_panel(window, (variant, renderer), reading, draw)
 }
 
@@ -52,7 +53,8 @@ pub(super) fn frozen_pixels(
     window: &Window,
     (variant, renderer): (VariantId, &mut Renderer<'_>),
 ) -> Result<Unit, CliError> {
-    let draw = Draw { seeding: Seeding::Frozen, seeds: 1, first_seed: 0, frames: window.frames.len() };
+    let draw =
+        Draw { seeding: Seeding::Frozen, seeds: 1, first_seed: 0, frames: window.frames.len(), plant: None };
     let panel = shade_panel(window, (variant, renderer), Reading::Pixels, draw)?;
     in_pixels(window, &panel, SumKind::FrozenPixels)
 }
@@ -92,7 +94,8 @@ pub(super) fn frozen(
     window: &Window,
     (variant, renderer): (VariantId, &mut Renderer<'_>),
 ) -> Result<Unit, CliError> {
-    let draw = Draw { seeding: Seeding::Frozen, seeds: 1, first_seed: 0, frames: window.frames.len() };
+    let draw =
+        Draw { seeding: Seeding::Frozen, seeds: 1, first_seed: 0, frames: window.frames.len(), plant: None };
     let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
     let table = window_tiles(&panel, &window.truth, &window.tiling)?.sum_table();
     Ok(Unit { tables: BTreeMap::from([(SumKind::Frozen, table)]), mask: vec![] })

@@ -74,6 +74,7 @@ fn sampling(args: &ClaimsArgs) -> Sampling {
         samples: args.samples.unwrap_or(if quick { 128 } else { 512 }),
         basis_samples: BASIS_SAMPLES,
         tolerance: None,
+        plant: None,
     }
 }
 

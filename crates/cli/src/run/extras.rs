@@ -97,7 +97,7 @@ pub(super) fn of_patterns(
             extras.insert(id.into(), Measurement::NotMeasured(Missing::OneFrame));
             continue;
         }
-        let draw = Draw { seeding, seeds: PATTERN_SEEDS, first_seed: 0, frames };
+        let draw = Draw { seeding, seeds: PATTERN_SEEDS, first_seed: 0, frames, plant: None };
         let panel = shade_panel(window, (variant, renderer), reading, draw)?;
         let table = window_grain(&panel, &window.tiling)?;
         extras.insert(id.into(), grain(&[&table], &Bootstrap::default()).lag1);

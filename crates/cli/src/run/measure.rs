@@ -56,7 +56,13 @@ pub(super) fn measure(
 ) -> Result<Measured, CliError> {
     let seeds = if variant.info().stochastic { sampling.seeds } else { 1 };
     let first_seed = sampling.first_seed.wrapping_mul(sampling.seeds);
-    let draw = Draw { seeding: Seeding::Fresh, seeds, first_seed, frames: window.frames.len() };
+    let draw = Draw {
+        seeding: Seeding::Fresh,
+        seeds,
+        first_seed,
+        frames: window.frames.len(),
+        plant: sampling.plant,
+    };
     let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
     let anchored = window_tiles(&panel, &window.truth, &window.tiling)?;
     let maps = point_maps(&panel, &window.truth, &window.tiling)?;

@@ -5,6 +5,7 @@ mod extras;
 mod measure;
 pub(crate) mod panel;
 mod pictures;
+mod plant;
 pub(crate) mod provenance;
 mod scorecard;
 pub(crate) mod sums;
@@ -225,7 +226,8 @@ impl Run<'_> {
             index,
             &WindowPictures { truth: pictures::truth(window), beauty: Some(window.beauty()) },
         )?;
-        renderer.set_anchors(&window.anchors)?;
+        let map = renderer.light_map(&window.frames[window.middle()].1);
+        renderer.set_anchors(&plant::anchors(self.plan.sampling.plant, &window.anchors, &map))?;
         let mut variants = Vec::new();
         for (place, &variant) in self.plan.variants.iter().enumerate() {
             interrupt::check(&self.settings.cache)?;

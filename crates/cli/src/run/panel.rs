@@ -1,6 +1,8 @@
 //! What a variant says at every anchor, frame and seed, in both readings.
 
+use super::plant;
 use super::window::Window;
+use crate::args::Plant;
 use crate::error::CliError;
 use umbrage_metrics::Panel;
 use umbrage_shadows::{Renderer, Seeding, VariantId};
@@ -24,6 +26,7 @@ pub(crate) struct Draw {
     /// Of fresh patterns; as they ship they begin at 0.
     pub(crate) first_seed: u32,
     pub(crate) frames: usize,
+    pub(crate) plant: Option<Plant>,
 }
 
 /// Shades every frame and seed.
@@ -41,6 +44,8 @@ pub(crate) fn shade_panel(
     let mut values = Vec::with_capacity(points * draw.frames * draw.seeds as usize);
     for (frame, (view, light)) in window.frames.iter().take(draw.frames).enumerate() {
         renderer.set_past(window.past(frame));
+        let light = &plant::light(draw.plant, light);
+        let start = values.len();
         let pixels = match reading {
             Reading::Anchored => None,
             Reading::Pixels => Some(window.anchors.pixels_in(view)),
@@ -59,6 +64,9 @@ pub(crate) fn shade_panel(
                     values.extend(pixels.iter().map(|p| p.map_or(0.0, |p| shaded[p as usize])));
                 }
             }
+        }
+        if draw.plant == Some(Plant::BrokenFrame) && frame == window.middle() {
+            values[start..].fill(1.0);
         }
     }
     Ok(Panel { points, frames: draw.frames, seeds: draw.seeds as usize, values })

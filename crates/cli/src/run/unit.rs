@@ -37,7 +37,10 @@ pub(crate) fn key(
     add(adapter);
     add(&window.truth_key);
     add(&variant.name());
-    add(&format!("{} {} {:?} {}", sampling.seeds, sampling.first_seed, sampling.size, window.first));
+    add(&format!(
+        "{} {} {:?} {} {:?}",
+        sampling.seeds, sampling.first_seed, sampling.size, window.first, sampling.plant
+    ));
     for (frame, (view, light)) in window.frames.iter().enumerate() {
         add(&format!("{view:?} {light:?} {:?}", window.past(frame)));
     }
