@@ -12,11 +12,12 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// The numbers that a gate looks at, in display order.
-pub const GATED: [PooledNumber; 7] = [
+pub const GATED: [PooledNumber; 8] = [
     PooledNumber::Cell(Quantity::Error),
     PooledNumber::Cell(Quantity::Banding),
     PooledNumber::Cell(Quantity::Swimming),
     PooledNumber::Cell(Quantity::Noise),
+    PooledNumber::BlockNoise,
     PooledNumber::Cell(Quantity::LightLeak),
     PooledNumber::Cell(Quantity::FalseShadow),
     PooledNumber::WidthRatio,
@@ -44,7 +45,7 @@ impl Margin {
             PooledNumber::Cell(Quantity::Error) => [2e-4, 0.01],
             PooledNumber::Cell(Quantity::Banding) => [2e-6, 0.02],
             PooledNumber::Cell(Quantity::Swimming) => [5e-6, 0.1],
-            PooledNumber::Cell(Quantity::Noise) => [5e-6, 0.05],
+            PooledNumber::Cell(Quantity::Noise) | PooledNumber::BlockNoise => [5e-6, 0.05],
             PooledNumber::Cell(Quantity::LightLeak | Quantity::FalseShadow) => [2e-4, 0.02],
             _ => [0.01, 0.0],
         };

@@ -58,7 +58,7 @@ pub use quantity::Quantity;
 pub use regions::{Coverage, Region, counted};
 pub use registry::{Direction, METRICS, MetricInfo, metric};
 pub use score::{Measurement, Missing, Score};
-pub use seeds::{SeedSpread, pooled_reading, seed_spread};
+pub use seeds::{SeedSpread, gate_table, pooled_reading, seed_spread};
 pub use spectrum::SPECTRUM_FREQUENCIES;
 pub use ssim::ssim;
 pub use swimming::swimming_per_frame;

@@ -8,7 +8,7 @@
 use crate::gate::{GATED, Reading};
 use crate::pooled::SumKind;
 use crate::{Bootstrap, MetricsError, Panel, PanelTruth, PooledNumber, SumTable, Tiling};
-use crate::{window_profiles, window_tiles};
+use crate::{block_sums, window_profiles, window_tiles};
 use serde::{Deserialize, Serialize};
 use umbrage_frame::Anchors;
 
@@ -43,13 +43,14 @@ pub fn seed_spread(
         return Ok(None);
     }
     let side = Bootstrap::default().cluster_tiles;
-    let tables = |panel: &Panel| -> Result<[SumTable; 2], MetricsError> {
+    let tables = |panel: &Panel| -> Result<[SumTable; 3], MetricsError> {
         let cells = window_tiles(panel, truth, tiling)?.sum_table();
         let profile = window_profiles(panel, truth, anchors, tiling)?.sum_table();
-        Ok([cells.clustered(side), profile.clustered(side)])
+        let blocks = block_sums(panel, truth, tiling)?;
+        Ok([cells, profile, blocks].map(|table| table.clustered(side)))
     };
     let all = tables(panel)?;
-    let without: Vec<[SumTable; 2]> =
+    let without: Vec<[SumTable; 3]> =
         (0..panel.seeds).map(|seed| tables(&panel.without(seed))).collect::<Result<_, _>>()?;
     Ok(Some(GATED.iter().map(|&number| spread(number, &all, &without)).collect()))
 }
@@ -75,10 +76,19 @@ pub fn pooled_reading(number: PooledNumber, windows: &[(&SumTable, Option<SeedSp
     Some(Reading { value, variance, freedom })
 }
 
-fn spread(number: PooledNumber, all: &[SumTable; 2], without: &[[SumTable; 2]]) -> Option<SeedSpread> {
+/// Which of the three tables a gated number is made from: cells, profile, blocks.
+pub fn gate_table(number: PooledNumber) -> usize {
+    match number.kind() {
+        SumKind::Profile => 1,
+        SumKind::Blocks => 2,
+        _ => 0,
+    }
+}
+
+fn spread(number: PooledNumber, all: &[SumTable; 3], without: &[[SumTable; 3]]) -> Option<SeedSpread> {
     // The root of a sum is as good as linear in no single cluster; its square is linear.
     let number = number.squared();
-    let kind = usize::from(number.kind() == SumKind::Profile);
+    let kind = gate_table(number);
     let table = &all[kind];
     let whole = number.of(&[table])?;
     let s = without.len() as f64;

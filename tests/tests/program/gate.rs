@@ -62,8 +62,8 @@ fn a_regression_is_caught_shown_and_accepted() {
 fn the_failure_is_written_down(folder: &Path, worse: &Ran) {
     let junit = read(folder, "worse/junit.xml");
     assert!(junit.contains("<failure message=") && !junit.contains("failures=\"0\""), "{junit}");
-    // One case for each of 7 scores of each of 3 variants in the one window.
-    assert_eq!(junit.matches("<testcase").count(), 21, "{junit}");
+    // One case for each of 8 scores of each of 3 variants in the one window.
+    assert_eq!(junit.matches("<testcase").count(), 24, "{junit}");
     let summary = read(folder, "worse/summary.md");
     for text in [&worse.stderr, &junit, &summary] {
         for part in ["would pass at", "measure just this", "accept it", "worst at pixels"] {
@@ -170,7 +170,8 @@ fn margins_come_from_the_suite() {
     suite("", "");
     run(&mut umbrage(folder, &format!("{line} --save-baseline main --out good"))).ended_with(0);
     run(&mut umbrage(folder, &gated("narrow"))).ended_with(1);
-    let names = ["error", "banding", "swimming", "noise", "light_leak", "false_shadow", "width_ratio"];
+    let names =
+        ["error", "banding", "swimming", "noise", "noise_4x4", "light_leak", "false_shadow", "width_ratio"];
     let wide: String = names.iter().map(|n| format!("{n} = {{ absolute = 100.0 }}\n")).collect();
     suite(&format!("[gate]\n{wide}"), "");
     run(&mut umbrage(folder, &gated("wide"))).ended_with(0);

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use umbrage_frame::Image;
 use umbrage_metrics::{
-    Measurement, SeedSpread, SumTable, TileTable, point_maps, seed_spread, window_profiles, window_tiles,
+    Measurement, SeedSpread, SumTable, TileTable, block_sums, point_maps, seed_spread, window_profiles,
+    window_tiles,
 };
 use umbrage_report::VariantPictures;
 use umbrage_shadows::{Renderer, Seeding, VariantId};
@@ -29,6 +30,8 @@ pub(crate) struct Numbers {
     pub(crate) anchored: TileTable,
     /// What the width of the penumbra is made of.
     pub(crate) profile: SumTable,
+    /// What the noise of means over 4x4 px is made of.
+    pub(crate) blocks: SumTable,
     /// Spread of each gated number over seeds; none with two seeds.
     pub(crate) spread: Option<Vec<Option<SeedSpread>>>,
     /// The pixel reading; none for one frame.
@@ -73,6 +76,7 @@ pub(super) fn measure(
     let (width, height) = window.size();
     let mask = Image::from_pixels(width, height, values);
     let profile = window_profiles(&panel, &window.truth, &window.anchors, &window.tiling)?;
+    let blocks = block_sums(&panel, &window.truth, &window.tiling)?;
     let spread = seed_spread(&panel, &window.truth, &window.anchors, &window.tiling)?;
     let (mut extras, noise_spectrum) = extras::of_panel(window, (&panel, &profile), &maps)?;
     extras.extend(extras::of_picture(window, &mask));
@@ -90,7 +94,15 @@ pub(super) fn measure(
     };
     let pictures = pictures::variant(window, mask, &maps);
     Ok(Measured {
-        numbers: Numbers { anchored, profile: profile.sum_table(), spread, pixels, extras, noise_spectrum },
+        numbers: Numbers {
+            anchored,
+            profile: profile.sum_table(),
+            blocks,
+            spread,
+            pixels,
+            extras,
+            noise_spectrum,
+        },
         pictures,
     })
 }

@@ -35,6 +35,7 @@ pub(super) fn of(plan: &Plan, provenance: &Provenance, scored: &[Scored]) -> Bas
                 variant,
                 cells: sums(cells),
                 profile: sums(rows(numbers.profile.clone())),
+                blocks: sums(rows(numbers.blocks.clone())),
                 spread: numbers
                     .spread
                     .iter()

@@ -59,6 +59,8 @@ pub struct BaselineSums {
     pub cells: Vec<Vec<f64>>,
     /// What the width of the penumbra is made of.
     pub profile: Vec<Vec<f64>>,
+    /// What the noise of means over 4x4 px is made of.
+    pub blocks: Vec<Vec<f64>>,
     /// Of each gated score in order: variance over pattern seeds and its degrees of freedom; empty where there
     /// were two seeds, which cannot tell.
     pub spread: Vec<Option<[f64; 2]>>,
@@ -119,8 +121,12 @@ impl Baseline {
     /// Rounds all sums to seven digits, as files hold them: an unchanged build then differs by nothing.
     pub fn round(&mut self) {
         for sums in &mut self.sums {
-            let rows =
-                sums.cells.iter_mut().chain(&mut sums.profile).chain(std::iter::once(&mut sums.per_frame));
+            let rows = sums
+                .cells
+                .iter_mut()
+                .chain(&mut sums.profile)
+                .chain(&mut sums.blocks)
+                .chain(std::iter::once(&mut sums.per_frame));
             rows.flatten()
                 .chain(sums.spread.iter_mut().flatten().flatten())
                 .for_each(|v| *v = seven_digits(*v));
@@ -140,13 +146,14 @@ impl Baseline {
             else {
                 return refuse("sums of a window or variant that there is not");
             };
-            if [sums.cells.len(), sums.profile.len()] != [window.clusters.len(); 2] {
+            if [sums.cells.len(), sums.profile.len(), sums.blocks.len()] != [window.clusters.len(); 3] {
                 return refuse("sums of other clusters than the window's");
             }
             if sums
                 .cells
                 .iter()
                 .chain(&sums.profile)
+                .chain(&sums.blocks)
                 .flatten()
                 .chain(&sums.per_frame)
                 .chain(sums.spread.iter().flatten().flatten())

@@ -4,7 +4,7 @@ use super::baseline::{Baseline, BaselineSums, BaselineWindow, adapter_class};
 use super::card::{GateCard, GateCase, Side};
 use super::margins::gated;
 use crate::{Provenance, ReportError};
-use umbrage_metrics::{PooledNumber, SeedSpread, SumKind, SumTable, Trial, judge, pooled_reading};
+use umbrage_metrics::{PooledNumber, SeedSpread, SumTable, Trial, gate_table, judge, pooled_reading};
 
 /// Why two runs do not compare: every reason, not the first.
 pub fn not_comparable(base: &Baseline, run: &Baseline) -> Vec<String> {
@@ -73,8 +73,8 @@ impl BaselineWindow {
 struct Pair<'a> {
     window: &'a BaselineWindow,
     sums: [&'a BaselineSums; 2],
-    /// Cells, profile; base, run.
-    tables: [[SumTable; 2]; 2],
+    /// Cells, profile, blocks; base, run.
+    tables: [[SumTable; 2]; 3],
 }
 
 /// Judges every score of every variant in every window and over all of them. The margins are the run's.
@@ -159,7 +159,7 @@ fn pairs<'a>(base: &'a Baseline, run: &'a Baseline, variant: &str) -> Result<Vec
         };
         let table =
             |rows: fn(&BaselineSums) -> &[Vec<f64>]| sums.map(|s| BaselineSums::table(rows(s), window));
-        let tables = [table(|s| &s.cells), table(|s| &s.profile)];
+        let tables = [table(|s| &s.cells), table(|s| &s.profile), table(|s| &s.blocks)];
         let counts = |t: &SumTable| t.rows.iter().map(|(.., s)| s[..3].to_vec()).collect::<Vec<_>>();
         if counts(&tables[0][0]) != counts(&tables[0][1]) {
             let reason = format!("{}, {}: other points are scored; truth changed", window.scene, window.path);
@@ -172,7 +172,7 @@ fn pairs<'a>(base: &'a Baseline, run: &'a Baseline, variant: &str) -> Result<Vec
 
 impl Pair<'_> {
     fn table(&self, number: PooledNumber, side: usize) -> (&SumTable, Option<SeedSpread>) {
-        let table = &self.tables[usize::from(number.kind() == SumKind::Profile)][side];
+        let table = &self.tables[gate_table(number)][side];
         let index = gated().position(|(_, n)| n == number);
         let spread = index.and_then(|i| *self.sums[side].spread.get(i)?);
         (table, spread.map(|[variance, freedom]| SeedSpread { variance, freedom }))

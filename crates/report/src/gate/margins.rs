@@ -35,6 +35,7 @@ pub fn gated() -> impl Iterator<Item = (&'static str, PooledNumber)> {
 fn id(number: PooledNumber) -> &'static str {
     match number {
         PooledNumber::Cell(quantity) => quantity.id(),
+        PooledNumber::BlockNoise => "noise_4x4",
         _ => "width_ratio",
     }
 }
