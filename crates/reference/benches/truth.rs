@@ -1,13 +1,14 @@
 //! Seconds that truth takes, alone or in turns with another program.
 //!
 //! `cargo bench -p umbrage-reference --bench truth -- CASE [--models DIR] [--size WxH] [--samples N]
-//! [--rounds N] [--method NAME]... [--export FILE] [--serve]`. Without `--models` there is only the case
-//! `colonnade`. `--export` writes the triangles, the receivers and the light for
+//! [--rounds N] [--method NAME]... [--export FILE] [--serve] [--rays FILE]`. Without `--models` there is
+//! only the case `colonnade`. `--export` writes the triangles, the receivers and the light for
 //! `tests/peers/embree`; `--serve` waits for a line on standard input before each round, so that a
-//! script can let two programs take turns.
+//! script can let two programs take turns; `--rays` says what given rays hit, for the same folder.
 #![expect(clippy::print_stdout, reason = "a program, not a library")]
 
-use glam::Vec3;
+use glam::{Mat4, Vec3, Vec4};
+use rayon::prelude::*;
 use std::error::Error;
 use std::io::{BufRead, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -38,11 +39,15 @@ struct Options {
     methods: Vec<Method>,
     export: Option<PathBuf>,
     serve: bool,
+    rays: Option<PathBuf>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let options = options()?;
     let (scene, camera, light) = case(&options)?;
+    if let Some(path) = &options.rays {
+        return answer(path, scene);
+    }
     let (tracer, seconds) = timed(|| Tracer::new(&scene));
     let tracer = tracer?;
     println!("{}: {} triangles, tree in {seconds:.2} s", options.case, scene.geometry.triangles.len());
@@ -109,6 +114,7 @@ fn options() -> Result<Options, Box<dyn Error>> {
         methods: Vec::new(),
         export: None,
         serve: false,
+        rays: None,
     };
     // Cargo adds `--bench`.
     let mut arguments = std::env::args().skip(1).filter(|a| a != "--bench");
@@ -132,6 +138,7 @@ fn options() -> Result<Options, Box<dyn Error>> {
             }),
             "--export" => options.export = Some(value()?.into()),
             "--serve" => options.serve = true,
+            "--rays" => options.rays = Some(value()?.into()),
             name if CASES.contains(&name) => options.case = name.into(),
             other => return Err(format!("{other} is none of {CASES:?} and no option").into()),
         }
@@ -236,6 +243,67 @@ fn export(
         put((world_from_clip.project_point3(Vec3::new(x, y, 0.5)) - camera.eye()).normalize())?;
     }
     Ok(())
+}
+
+/// What each ray of a file hits, written beside it (`.answers`). The rays are f32 and not rounded on
+/// the way, so that another program can be asked about the very same ones. The file: u32 kind, u32
+/// count, then f32s. Kind 0, whether anything is hit (a byte a ray): origin, direction, and 1 if the
+/// ray ends short of origin + direction, which must be an f32 itself, or 0 if it goes on. Kind 1, the
+/// triangle that is hit first (u32 a ray, `u32::MAX` for none): the eye once, then directions whose
+/// largest component is 1 or -1; the scene is moved so that the eye is at 0.
+fn answer(path: &Path, mut scene: Scene) -> Result<(), Box<dyn Error>> {
+    let bytes = std::fs::read(path)?;
+    let (words, _) = bytes.as_chunks::<4>();
+    let [kind, _count, rest @ ..] = words else { return Err("no header".into()) };
+    let numbers: Vec<f32> = rest.iter().map(|&word| f32::from_le_bytes(word)).collect();
+    let answers: Vec<u8> = if u32::from_le_bytes(*kind) == 0 {
+        let tracer = Tracer::new(&scene)?;
+        numbers.as_chunks::<7>().0.par_iter().map(|ray| u8::from(hidden(&tracer, ray))).collect()
+    } else {
+        let (eye, directions) = numbers.split_at(3);
+        let eye = Vec3::from_slice(eye);
+        scene.geometry.positions.iter_mut().for_each(|p| *p -= eye);
+        let tracer = Tracer::new(&scene)?;
+        let first = |d: &[f32; 3]| tracer.primary(&narrow(Vec3::from(*d))).triangle.pixels()[0];
+        directions.as_chunks::<3>().0.par_iter().flat_map_iter(|d| first(d).to_le_bytes()).collect()
+    };
+    std::fs::write(path.with_extension("answers"), answers)?;
+    Ok(())
+}
+
+/// Whether an any-hit ray from a point in mid-air hits something: a light without size has one place.
+fn hidden(tracer: &Tracer, &[x, y, z, dx, dy, dz, ends]: &[f32; 7]) -> bool {
+    let (origin, direction) = (Vec3::new(x, y, z), Vec3::new(dx, dy, dz));
+    let light = if ends == 0.0 {
+        AreaLight::Sun { direction_to_light: direction, angular_diameter_radians: 0.0 }
+    } else {
+        AreaLight::Disk { centre: origin + direction, normal: Vec3::Y, radius_world: 0.0 }
+    };
+    let point = Points { position: vec![origin], normal: vec![Vec3::ZERO], triangle: vec![u32::MAX] };
+    let settings = TruthSettings {
+        samples: 1,
+        replicates: 2,
+        basis_samples: 0,
+        method: Method::Rays,
+        ..Default::default()
+    };
+    tracer.truth(&point, &light, &settings).mean[0] == 0.0
+}
+
+/// A picture of one pixel from 0 along a direction whose largest component is 1 or -1: a shear, which
+/// is its own inverse, so that the direction stays what it is. No near or far plane.
+fn narrow(direction: Vec3) -> View {
+    let main = direction.abs().max_position();
+    let (u, v) = ((main + 1) % 3, (main + 2) % 3);
+    // Camera's x, y and z are the world's u, v and main axis; along -z it is `direction`.
+    let mut camera_from_world = Mat4::ZERO;
+    let sign = direction[main];
+    camera_from_world.col_mut(u)[0] = 1.0;
+    camera_from_world.col_mut(v)[1] = 1.0;
+    let mut column = Vec4::new(-direction[u] * sign, -direction[v] * sign, -sign, 0.0);
+    std::mem::swap(camera_from_world.col_mut(main), &mut column);
+    camera_from_world.w_axis = Vec4::W;
+    View { width: 1, height: 1, clip_from_world: Mat4::ZERO, camera_from_world, yfov_radians: 1.0 }
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
