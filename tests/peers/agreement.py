@@ -31,8 +31,8 @@ class Row:
 
     @property
     def accepted(self):
-        # Only of V at the same points is the whole variance known.
-        spread = self.quantity != "V" or self.what != AT_OUR_POINTS or self.excess <= EXCESS
+        # Through another camera points are a rounding apart, which hard edges show.
+        spread = self.what != AT_OUR_POINTS or self.excess <= EXCESS
         return abs(self.ratio - 1) <= ACCEPTED and spread
 
 
@@ -59,16 +59,19 @@ class Agreement:
 
     def variance(self, key, theirs):
         """Of the difference at each point. Mitsuba's samples of V are independent, hence binomial,
-        with the fraction from umbrage, which knows it better. Umbrage states no variance for E: it
-        is left out, being about `noise_share` of Mitsuba's."""
+        with the fraction from umbrage, which knows it better. Umbrage states no variance for E and
+        E0: that of E is taken to be that of V times E0 squared, that of E0 is left out."""
         if key != "V":
-            return theirs[f"{key}.variance"]
+            own = self.ours["V.variance"] * self.ours["E0"] ** 2 if key == "E" else 0
+            return theirs[f"{key}.variance"] + own
         fraction = self.ours["V"]
         return fraction * (1 - fraction) / self.spp + self.ours["V.variance"]
 
     def noise_share(self):
         """Umbrage's variance of V over Mitsuba's."""
-        return float(self.ours["V.variance"].mean() / self.variance("V", {}).mean())
+        fraction = self.ours["V"]
+        both = (fraction * (1 - fraction) / self.spp).mean()
+        return float(self.ours["V.variance"].mean() / both) if both > 0 else 0.0
 
     def apart(self, theirs):
         """|difference of V| in sigmas. Where umbrage says 0 or 1, it says so from a finite number

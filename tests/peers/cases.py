@@ -21,10 +21,18 @@ ATRIUM_LIGHTS = {
     "atrium-disk": {"kind": "disk", "centre": [-3.0, 7.6, 0.8], "normal": [0.2, -1.0, 0.1], "radius_world": 0.3},
     "atrium-sphere": {"kind": "sphere", "centre": [-3.0, 7.6, 0.8], "radius_world": 0.3},
 }
-BUILTIN_CASE = "colonnade-sun"
-NAMES = [*ATRIUM_LIGHTS, BUILTIN_CASE]
-# What must hold for the proof to count; the others are extra.
-REQUIRED = {"atrium-rect", "atrium-sun", BUILTIN_CASE}
+# Lamps hang in the other scenes too, a metre or more from everything; the sun is the scene's own.
+LAMPS = {
+    "colonnade": ([-1.0, 6.0, 2.0], 0.4),
+    "foliage": ([2.5, 7.0, 1.5], 0.4),
+    "curved-receivers": ([-1.0, 6.5, -1.0], 0.4),
+    "contact": ([1.5, 5.0, 1.5], 0.3),
+}
+KINDS = ["rect", "sun", "disk", "sphere"]
+BUILTIN_NAMES = [f"{scene}-{kind}" for scene in LAMPS for kind in KINDS]
+NAMES = [*ATRIUM_LIGHTS, *BUILTIN_NAMES]
+# Each kind of light in a picture of its own, and a built-in scene.
+PICTURED = [*ATRIUM_LIGHTS, "colonnade-sun"]
 
 
 @dataclass
@@ -43,7 +51,7 @@ class Case:
 
 def make(name, atrium, folder):
     """The case of this name; files that it needs are made in `folder`."""
-    return builtin_case(folder) if name == BUILTIN_CASE else atrium_case(name, atrium, folder)
+    return atrium_case(name, atrium, folder) if name in ATRIUM_LIGHTS else builtin_case(name, folder)
 
 
 def atrium_case(name, atrium, folder):
@@ -53,36 +61,37 @@ def atrium_case(name, atrium, folder):
     link = home / "atrium.obj"
     if not link.exists():
         link.symlink_to(atrium.resolve())
-    (home / "scene.toml").write_text(scene_toml(light))
+    geometry = f'files = ["{link.name}"]'
+    (home / "scene.toml").write_text(scene_toml(geometry, light, (EYE, TARGET, YFOV_DEGREES)))
     if light["kind"] == "sun":
         light = light | {"angular_diameter_radians": math.radians(light["angular_diameter_degrees"])}
     camera = {"eye": EYE, "target": TARGET, "up": [0, 1, 0], "yfov_degrees": YFOV_DEGREES}
     return Case(name, str(home), "P0", atrium, light, camera)
 
 
-def scene_toml(light):
+def scene_toml(geometry, light, camera):
     # JSON's strings, numbers and lists of numbers are TOML's as well.
     fields = "\n".join(f"{key} = {json.dumps(value)}" for key, value in light.items())
-    motion = f'{{ kind = "still", eye = {EYE}, target = {TARGET} }}'
-    return f"""title = "Atrium"
+    eye, target, yfov_degrees = camera
+    motion = f'{{ kind = "still", eye = {eye}, target = {target} }}'
+    return f"""title = "A case"
 [geometry]
-files = ["atrium.obj"]
+{geometry}
 [[light]]
 {fields}
 [[path]]
 name = "P0"
 frames = 1
-yfov_degrees = {YFOV_DEGREES}
+yfov_degrees = {yfov_degrees}
 motion = {motion}
 """
 
 
-def builtin_case(folder):
-    scene, path = BUILTIN_CASE.removesuffix("-sun"), "P0"
-    obj = folder / f"{scene}.obj"
-    export = ["cargo", "run", "--quiet", "-p", "umbrage-scene", "--example", "export", "--"]
-    subprocess.run([*export, scene, str(obj), path, "0"], cwd=REPOSITORY, check=True, stdout=subprocess.DEVNULL)
-    told = json.loads(obj.with_suffix(".json").read_text())
+def builtin_case(name, folder):
+    """A built-in scene: umbrage makes its surfaces, others read the export's. With its own sun umbrage
+    knows all by the scene's name; lamps are written down for it."""
+    scene, _, kind = name.rpartition("-")
+    obj, told = exported(scene, folder)
     # Columns: right, up, back, eye.
     _, up, back, eye = (column[:3] for column in told["camera"]["world_from_camera"])
     camera = {
@@ -91,4 +100,27 @@ def builtin_case(folder):
         "up": up,
         "yfov_degrees": math.degrees(told["camera"]["yfov_radians"]),
     }
-    return Case(BUILTIN_CASE, scene, path, obj, told["light"], camera)
+    if kind == "sun":
+        return Case(name, scene, "P0", obj, told["light"], camera)
+    light = lamp(kind, *LAMPS[scene])
+    home = folder / name
+    home.mkdir(exist_ok=True)
+    view = camera["eye"], camera["target"], camera["yfov_degrees"]
+    (home / "scene.toml").write_text(scene_toml(f'generator = "{scene}"', light, view))
+    return Case(name, str(home), "P0", obj, light, camera)
+
+
+def lamp(kind, centre, size):
+    """All of about one width; the flat ones look down, a little to the side."""
+    if kind == "rect":
+        return {"kind": kind, "centre": centre, "half_u": [size, 0.0, 0.0], "half_v": [0.0, 0.6 * size, 0.8 * size]}
+    light = {"kind": kind, "centre": centre, "radius_world": size}
+    return light | {"normal": [0.2, -1.0, 0.1]} if kind == "disk" else light
+
+
+def exported(scene, folder):
+    obj = folder / f"{scene}.obj"
+    if not obj.exists():
+        export = ["cargo", "run", "--quiet", "--release", "-p", "umbrage-scene", "--example", "export", "--"]
+        subprocess.run([*export, scene, str(obj), "P0", "0"], cwd=REPOSITORY, check=True, stdout=subprocess.DEVNULL)
+    return obj, json.loads(obj.with_suffix(".json").read_text())

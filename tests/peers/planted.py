@@ -14,7 +14,8 @@ import numpy as np
 
 import cases
 from agreement import AT_OUR_POINTS, Agreement
-from compare import LIFT, arguments, umbrage
+from compare import LIFT, arguments, picture, umbrage
+from pattern import Pattern, pattern
 
 
 def turned(vector, degrees):
@@ -59,10 +60,11 @@ def main():
 HEAD = """# Errors planted in the light that Mitsuba is told
 
 Written by `tests/peers/planted.py`: what `compare.py` says at umbrage's points when the light differs.
-The mean of V hardly knows how wide a penumbra is, or where; its mean square does.
+The mean of V hardly knows how wide a penumbra is, or where; its mean square does, and so do a pixel's
+neighbours and blocks of pixels.
 
-| case | planted | V ratio | V excess, sigma | E ratio | accepted |
-| --- | --- | --- | --- | --- | --- |"""
+| case | planted | V ratio | V excess, sigma | V neighbours, sigma | V blocks, sigma | E ratio | accepted |
+| --- | --- | --- | --- | --- | --- | --- | --- |"""
 
 
 @dataclass
@@ -70,28 +72,34 @@ class Planted:
     case: str
     what: str
     rows: dict
+    pattern: Pattern  # of V
 
     @property
     def accepted(self):
-        return all(row.accepted for row in self.rows.values())
+        return all(row.accepted for row in self.rows.values()) and self.pattern.accepted
 
 
 def plant(name, options, folder):
     from peer import Peer, Settings
     case = cases.make(name, options.atrium, folder)
-    _, points, values = umbrage(case, options, folder)
+    size = [int(side) for side in options.size.split("x")]
+    hit, points, values = umbrage(case, options, folder)
     agreement = Agreement(values, options.spp)
     for what, change in PLANTED[name]:
         peer = Peer(replace(case, light=change(case.light)))
         theirs = peer.estimate(*points, Settings(options.spp, LIFT, 1))
         keep = ~theirs["contact"]
-        yield Planted(name, what, {key: agreement.row(key, (AT_OUR_POINTS, True), theirs, keep) for key in ("V", "E")})
+        difference = picture(np.where(keep, values["V"] - theirs["V"], np.nan), hit, size)
+        shape = pattern(difference, 1)
+        yield Planted(name, what, {key: agreement.row(key, (AT_OUR_POINTS, True), theirs, keep) for key in ("V", "E")}, shape)
 
 
 def line(result):
     v, e = result.rows["V"], result.rows["E"]
     verdict = "yes" if result.accepted else "no"
-    return f"| {result.case} | {result.what} | {v.ratio:.5f} | {v.excess:+.1f} | {e.ratio:.5f} | {verdict} |"
+    shape = result.pattern
+    return (f"| {result.case} | {result.what} | {v.ratio:.5f} | {v.excess:+.1f} | {shape.neighbours:+.1f} "
+            f"| {shape.blocks:+.1f} | {e.ratio:.5f} | {verdict} |")
 
 
 if __name__ == "__main__":
