@@ -548,6 +548,47 @@ public:
         std::printf("{\"seconds\":%.9g,\"hits\":%" PRIu64 "}\n", seconds, hits);
     }
 
+    /// Whether given rays hit anything, W at a time, a byte for each; not timed. A ray is an origin, a
+    /// direction and 1 if it ends short of their sum, or 0.
+    template <int W>
+    void rays(const std::string& path) {
+        std::ifstream file(path, std::ios::binary);
+        uint32_t head[2] = {1, 0};
+        file.read(reinterpret_cast<char*>(head), sizeof head);
+        std::vector<float> numbers(7 * static_cast<size_t>(head[1]));
+        file.read(reinterpret_cast<char*>(numbers.data()), static_cast<std::streamsize>(numbers.size() * sizeof(float)));
+        if (!file || head[0] != 0) {
+            std::printf("{\"error\":\"cannot read the rays\"}\n");
+            return;
+        }
+        hit.resize(head[1]);
+        Query query{QUERY_INCOHERENT};
+        spread(head[1], RECEIVERS_AT_ONCE, options.threads, [&] {
+            return [&](uint32_t first, uint32_t end) {
+                Ray<W> packet;
+                blank(packet);
+                alignas(64) int valid[W];
+                for (uint32_t at = first; at < end; at += W) {
+                    uint32_t some = std::min<uint32_t>(W, end - at);
+                    for (uint32_t i = 0; i < W; i++) {
+                        const float* ray = &numbers[7 * static_cast<size_t>(at + std::min(i, some - 1))];
+                        valid[i] = i < some ? -1 : 0;
+                        packet.org_x[i] = ray[0];
+                        packet.org_y[i] = ray[1];
+                        packet.org_z[i] = ray[2];
+                        packet.dir_x[i] = ray[3];
+                        packet.dir_y[i] = ray[4];
+                        packet.dir_z[i] = ray[5];
+                        packet.tfar[i] = ray[6] != 0 ? LIGHT_END : std::numeric_limits<float>::infinity();
+                    }
+                    occluded(valid, scene, &packet, &query);
+                    for (uint32_t i = 0; i < some; i++) hit[at + i] = packet.tfar[i] < 0;
+                }
+            };
+        }, [](const auto&) {});
+        write(path + ".embree", hit);
+    }
+
     void dump(const std::string& path) const { write(path, visible); }
     void dump_hits(const std::string& path) const { write(path, ids); }
 
@@ -599,6 +640,7 @@ private:
     Scene scene = nullptr;
     std::vector<float> visible;
     std::vector<uint32_t> ids;
+    std::vector<uint8_t> hit;
 };
 
 } // namespace
@@ -618,6 +660,8 @@ int main(int count, char** words) {
         else if (command == "camera") bench.camera<1>(flags);
         else if (command == "camera8") bench.camera<8>(flags);
         else if (command == "camera16") bench.camera<16>(flags);
+        else if (command == "rays") bench.rays<1>(rest);
+        else if (command == "rays16") bench.rays<16>(rest);
         else if (command == "dump") bench.dump(rest);
         else if (command == "dumphits") bench.dump_hits(rest);
         else if (command == "quit") break;
