@@ -59,11 +59,11 @@ class Agreement:
 
     def variance(self, key, theirs):
         """Of the difference at each point. Mitsuba's samples of V are independent, hence binomial,
-        with the fraction from umbrage, which knows it better. Umbrage states no variance for E and
-        E0: that of E is taken to be that of V times E0 squared, that of E0 is left out."""
+        with the fraction from umbrage, which knows it better. Umbrage states no variance for others:
+        that of R is taken to be that of V, that of E the same times E0 squared; that of E0 is left out."""
         if key != "V":
-            own = self.ours["V.variance"] * self.ours["E0"] ** 2 if key == "E" else 0
-            return theirs[f"{key}.variance"] + own
+            share = {"E": self.ours["E0"] ** 2, "R": 1}.get(key, 0)
+            return theirs[f"{key}.variance"] + self.ours["V.variance"] * share
         fraction = self.ours["V"]
         return fraction * (1 - fraction) / self.spp + self.ours["V.variance"]
 
@@ -79,3 +79,9 @@ class Agreement:
         fraction = (self.ours["V"] * self.spp + 1) / (self.spp + 2)
         sigma = np.sqrt(fraction * (1 - fraction) / self.spp + self.ours["V.variance"])
         return np.abs(self.ours["V"] - theirs["V"]) / sigma
+
+
+def ratio(values):
+    """R, E over E0: NaN where E0 is too small to divide by."""
+    enough = values["E0"] > 0.01 * values["E0"].mean()
+    return np.where(enough, values["E"] / np.where(enough, values["E0"], 1), np.nan)

@@ -18,7 +18,7 @@ import arbiter
 import cases
 import closed
 import page
-from agreement import AT_OUR_POINTS, Agreement
+from agreement import AT_OUR_POINTS, Agreement, ratio
 from pattern import pattern
 
 # Lift of the rays in Mitsuba, relative to 1 + the largest coordinate: about twenty times f32's
@@ -88,13 +88,13 @@ class Result:
     ours: np.ndarray        # V as a picture
     difference: np.ndarray  # of V as a picture, NaN at contacts
     variance: np.ndarray    # of that
-    patterns: dict          # of V, E and E0
+    patterns: dict          # of V, R, E and E0
     exact: tuple            # of E0 by a closed form: points, ours over it, theirs over it, both in the mean
 
     def shapeless(self):
-        """Verdicts on patterns. Of a sphere only V's counts: Mitsuba's density of its samples is
-        rounded, which E and E0 show where the sphere is far away."""
-        keys = ["V"] if self.case.light["kind"] == "sphere" else list(self.patterns)
+        """Verdicts on patterns. Of a sphere's E and E0 they do not count: Mitsuba's density of its samples
+        is rounded, which shows where the sphere is far away; R, E over E0, is free of it."""
+        keys = ["V", "R"] if self.case.light["kind"] == "sphere" else list(self.patterns)
         return {key: self.patterns[key].accepted for key in keys}
 
 
@@ -128,15 +128,16 @@ def run(name, options, folder):
 
     apart = np.where(keep, agreement.apart(theirs), 0)
     witnesses = ask_arbiter(case, points, (ours, theirs["V"]), (apart, options.points))
-    differences = {key: picture(np.where(keep, values[key] - theirs[key], np.nan), hit, size) for key in ("V", "E", "E0")}
-    variances = {key: picture(agreement.variance(key, theirs), hit, size) for key in differences}
+    both = [some | {"R": ratio(some)} for some in (values, theirs)]
+    differences = {key: picture(np.where(keep, both[0][key] - both[1][key], np.nan), hit, size) for key in ("V", "R", "E", "E0")}
     patterns = {key: pattern(differences[key], scale(key, values, hit, size)) for key in differences}
     print(f"{name}: {time.time() - started:.0f} s", file=sys.stderr)
     return Result(
         case, peer.triangles(), hit.size, len(keep), int((hit != through[2]).sum() + other.sum()), int((~keep).sum()),
         int(((ours > 0) & (ours < 1)).sum()), agreement.noise_share(),
         {level: int((apart > level).sum()) for level in (4, 5, 6)}, rows, witnesses,
-        picture(ours, hit, size), differences["V"], variances["V"], patterns,
+        picture(ours, hit, size), differences["V"],
+        picture(agreement.variance("V", theirs), hit, size), patterns,
         against_closed_form(case, points, values["E0"], theirs["E0"]),
     )
 
@@ -165,8 +166,8 @@ def against_closed_form(case, points, ours, theirs):
 
 
 def scale(key, values, hit, size):
-    """What the noise of V, E or E0 goes with: V's is of one size everywhere, the others' goes with E0."""
-    return 1 if key == "V" else picture(np.maximum(values["E0"], 0.05 * values["E0"].mean()), hit, size)
+    """What noise goes with: that of fractions is of one size everywhere, that of E and E0 goes with E0."""
+    return 1 if key in ("V", "R") else picture(np.maximum(values["E0"], 0.05 * values["E0"].mean()), hit, size)
 
 
 def picture(values, hit, size):

@@ -17,16 +17,18 @@ import mitsuba as mi
 import numpy as np
 
 import cases
+import closed
 import page
 import sheet
-from agreement import ACCEPTED, AT_OUR_POINTS, EXCESS, Agreement
+from agreement import ACCEPTED, AT_OUR_POINTS, EXCESS, Agreement, ratio
 from compare import SAME_PLACE, arguments, picture, scale, umbrage
-from pattern import ACCEPTED as NO_PATTERN, pattern
+from pattern import ACCEPTED as NO_PATTERN, ENOUGH, pattern, summed
 
 # Renderings with a seed each: from their spread comes Cycles' variance.
 BATCHES, SAMPLES = 4, 32
-# Where no pattern may be. Not in E0: in a rectangle's, Cycles has one of its own (see `head`).
-SHAPELESS = ["E"]
+KEYS = ["R", "E", "E0"]
+# Where no pattern may be. E0 has Cycles' own, and E with it (see `head`); in R it cancels.
+SHAPELESS = ["R"]
 # Cosine between the normals of one surface.
 SAME_NORMAL = 1 - 1e-4
 HERE = Path(__file__).resolve().parent
@@ -56,7 +58,8 @@ class Result:
     elsewhere: int
     rows: list
     patterns: dict
-    tile: np.ndarray
+    tiles: dict         # of R and E
+    exact: tuple        # E0 over a closed form, less 1, in the worst block: umbrage's and Cycles'
 
     def verdicts(self):
         return [row.accepted for row in self.rows] + [self.patterns[key].accepted for key in SHAPELESS]
@@ -74,13 +77,28 @@ def run(name, options, folder):
     keep &= np.abs(np.einsum("ij,ij->i", normal[hit], points[1])) > SAME_NORMAL
     # Its own camera finds umbrage's points: they are the same, but for the pixel filter.
     agreement = Agreement(values, BATCHES * SAMPLES)
-    rows = [agreement.row(key, (AT_OUR_POINTS, True), theirs, keep) for key in ("E", "E0")]
-    differences = {key: picture(np.where(keep, values[key] - theirs[key], np.nan), hit, size) for key in ("E", "E0")}
-    variances = {key: picture(agreement.variance(key, theirs), hit, size) for key in differences}
-    patterns = {key: pattern(differences[key], scale(key, values, hit, size)) for key in differences}
+    both = [some | {"R": ratio(some)} for some in (values, theirs)]
+    known = keep & np.isfinite(both[0]["R"]) & np.isfinite(both[1]["R"])
+    agreement.ours = both[0]
+    rows = [agreement.row(key, (AT_OUR_POINTS, True), both[1], known if key == "R" else keep) for key in KEYS]
+    differences = {key: picture(np.where(keep, both[0][key] - both[1][key], np.nan), hit, size) for key in KEYS}
+    variances = {key: picture(agreement.variance(key, both[1]), hit, size) for key in KEYS}
+    patterns = {key: pattern(differences[key], scale(key, values, hit, size)) for key in KEYS}
     seen = picture(np.ones(len(keep)), hit, size) == 1
+    exact = closed.unshadowed(case.light, *points)
+    exact = picture(np.where(keep, exact, np.nan), hit, size)
+    worst = [worst_block(picture(some["E0"], hit, size), exact) for some in both]
     print(f"{name}: {time.time() - started:.0f} s", file=sys.stderr, flush=True)
-    return Result(case, int(hit.sum()), int((~keep).sum()), rows, patterns, sheet.tile(differences["E"], smooth(variances["E"]), seen))
+    tiles = {key: sheet.tile(differences[key], smooth(variances[key]), seen) for key in ("R", "E")}
+    return Result(case, int(hit.sum()), int((~keep).sum()), rows, patterns, tiles, worst)
+
+
+def worst_block(values, exact):
+    """Of sums over blocks, relative to the closed form."""
+    known = np.isfinite(exact) & (exact > 0)
+    sums, exacts, count = (summed(np.where(known, image, 0)) for image in (values, exact, known))
+    apart = sums[count >= ENOUGH] / exacts[count >= ENOUGH] - 1
+    return float(apart[np.argmax(np.abs(apart))]) if len(apart) else np.nan
 
 
 def smooth(variance):
@@ -105,13 +123,17 @@ def cycles(case, options, folder):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         sys.exit(f"Cycles' side failed:\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    pictures = {key: [read(folder / f"{key}-{batch}.exr") for batch in range(BATCHES)] for key in ("E", "E0")}
+    each = [{key: np.pi * pictures[key][batch]["Combined.R"] for key in pictures} for batch in range(BATCHES)]
     result = {}
-    for key in ("E", "E0"):
-        batches = [read(folder / f"{key}-{batch}.exr") for batch in range(BATCHES)]
-        values = np.stack([np.pi * layers["Combined.R"] for layers in batches])
+    for key in pictures:
+        values = np.stack([batch[key] for batch in each])
         result[key] = values.mean(axis=0)
         result[f"{key}.variance"] = values.var(axis=0, ddof=1) / BATCHES
-    surface = [np.stack([batches[0][f"{name}.{axis}"] for axis in "XYZ"], axis=1) for name in ("Position", "Normal")]
+    # Batches of E and E0 share their samples.
+    fractions = np.stack([batch["E"] / np.maximum(batch["E0"], np.finfo(float).tiny) for batch in each])
+    result["R.variance"] = fractions.var(axis=0, ddof=1) / BATCHES
+    surface = [np.stack([pictures["E"][0][f"{name}.{axis}"] for axis in "XYZ"], axis=1) for name in ("Position", "Normal")]
     return result, surface
 
 
@@ -124,9 +146,10 @@ def read(path):
 def write(results, options):
     options.out.mkdir(parents=True, exist_ok=True)
     across = len(cases.KINDS)
-    tiles = [result.tile for result in results]
-    if len(tiles) % across == 0:
-        sheet.write(options.out / "cycles.png", [tiles[k:k + across] for k in range(0, len(tiles), across)])
+    for key, name in (("R", "cycles"), ("E", "cycles-e")):
+        tiles = [result.tiles[key] for result in results]
+        if len(tiles) % across == 0:
+            sheet.write(options.out / f"{name}.png", [tiles[k:k + across] for k in range(0, len(tiles), across)])
     (options.out / "cycles.md").write_text(head(results, options) + "\n")
 
 
@@ -140,9 +163,10 @@ def head(results, options):
 
 Written by `tests/peers/compare_cycles.py`; the README there says how to run it and what each number means.
 
-{verdict} Asked for are a mean ratio within {ACCEPTED:g} of 1, a mean
-square that exceeds the expected one by at most {EXCESS:g} sigma, and neighbours and blocks of E within
-{NO_PATTERN:g} sigma of what noise gives.
+{verdict}
+
+Asked for are, of E, E0 and R = E / E0, a mean ratio within {ACCEPTED:g} of 1 and a mean square that exceeds the
+expected one by at most {EXCESS:g} sigma; and neighbours and blocks of R within {NO_PATTERN:g} sigma of what noise gives.
 
 | | |
 | --- | --- |
@@ -154,31 +178,37 @@ square that exceeds the expected one by at most {EXCESS:g} sigma, and neighbours
 
 E is irradiance from the light, E0 the same with nothing between; Cycles has no way to say V. It brings
 its own camera, ray tracer, samples and light shapes: a pixel filter of 0.01 pixels makes it look at
-umbrage's points. Points that it sees 1 mm away or more, or with another
-normal, are left out, and counted (*elsewhere*): the filter reaches across edges. Contacts are not
-left out: Cycles does not lift its rays. Its variance is that of the mean of {BATCHES} renderings. Ratio, bias,
-expected, excess, neighbours and blocks are those of [mitsuba.md](mitsuba.md).
+umbrage's points. Points that it sees 1 mm away or more, or with another normal, are left out, and
+counted (*elsewhere*): the filter reaches across edges. Contacts are not left out: Cycles does not lift
+its rays. Its variance is that of the mean of {BATCHES} renderings. R is compared where E0 is more than a
+hundredth of its mean. Ratio, bias, expected, excess, neighbours and blocks are those of
+[mitsuba.md](mitsuba.md).
 
-Blocks of E0 are shown, not asked for. Cycles knows a rectangle's E0 to 1e-3 at a pixel and, in f32, to
-some 2e-5 on average: enough for a block to have a sign. Umbrage is not the cause: Lambert's formula
-for polygons gives its E0 there, to 7e-6 at a pixel and 1e-7 on average.
+**E0 and E have a pattern, and it is Cycles'**: their noise is so small where all of the light is seen
+that blocks show how Cycles rounds, worst with spheres and rectangles that are far away. *E0 exact* says
+who is right: in the block where it is furthest off, E0 over a closed form, less 1, of umbrage and of
+Cycles, at points that see the whole light (a tilted disk has no such form here). R, in which the
+rounding cancels, shows shadows alone.
 
-| case | points | elsewhere | | mean | ratio | bias in sigma | RMSE | expected | excess | neighbours | blocks | worst block |
-| --- | ---: | ---: | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+| case | points | elsewhere | | mean | ratio | bias in sigma | RMSE | expected | excess | neighbours | blocks | worst block | E0 exact |
+| --- | ---: | ---: | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 {chr(10).join(line(result, row) for result in results for row in result.rows)}
 
-![all differences](cycles.png)
+![differences of R](cycles.png)
 
-All differences of E in units of their noise, four pixels in one: from blue (umbrage says less by
+All differences of R in units of their noise, four pixels in one: from blue (umbrage says less by
 {sheet.END:g} sigma) over white to red (more); a row of rectangle, sun, disk and sphere for each scene, yellow
-where points are left out."""
+where points are left out. Then the same of E, where lit places show Cycles' rounding.
+
+![differences of E](cycles-e.png)"""
 
 
 def line(result, row):
     found = result.patterns[row.quantity]
+    exact = "{:+.0e}, {:+.0e}".format(*result.exact) if row.quantity == "E0" and np.isfinite(result.exact).all() else ""
     return (f"| {result.case.name} | {row.points} | {result.elsewhere} | {row.quantity} | {row.ours:.4g} "
             f"| {row.ratio:.5f} ± {row.ratio_sigma:.5f} | {row.bias / row.bias_sigma:+.1f} | {row.rmse:.3g} | {row.expected:.3g} "
-            f"| {row.excess:+.1f} | {found.correlation:+.4f} ({found.neighbours:+.1f}) | {found.blocks:+.1f} | {found.worst:.1f} of {found.count} |")
+            f"| {row.excess:+.1f} | {found.correlation:+.4f} ({found.neighbours:+.1f}) | {found.blocks:+.1f} | {found.worst:.1f} of {found.count} | {exact} |")
 
 
 if __name__ == "__main__":

@@ -45,7 +45,8 @@ Written by `tests/peers/compare.py`; its README says how to run it and what each
 {verdict} Required (rows in bold) is a mean ratio within {ACCEPTED:g}
 of 1, and at umbrage's points also a mean square that exceeds the expected one by at most
 {EXCESS:g} sigma: the mean alone would not see a penumbra that is too wide (`planted.md`). A pattern is
-accepted if neighbours and blocks are within {pattern.ACCEPTED:g} sigma of what noise gives; of a sphere only V is tested.
+accepted if neighbours and blocks are within {pattern.ACCEPTED:g} sigma of what noise gives. Of a sphere's light V
+and R are tested, of others E and E0 as well.
 
 | | |
 | --- | --- |
@@ -56,7 +57,8 @@ accepted if neighbours and blocks are within {pattern.ACCEPTED:g} sigma of what 
 | pictures | {options.size}, one point in the middle of each pixel |
 | command | `python tests/peers/compare.py{changed(options)}` |
 
-V is the unoccluded fraction of the light, E the irradiance from it, E0 the same with nothing between.
+V is the unoccluded fraction of the light, E the irradiance from it, E0 the same with nothing between,
+R = E / E0 where E0 is more than a hundredth of its mean.
 *Ratio* is umbrage's mean over Mitsuba's, *bias* umbrage's less Mitsuba's, each with one standard
 error. *Expected* is what the RMSE would be from the noise of the samples alone, *excess* by how many
 standard errors the mean square is above that.
@@ -72,7 +74,8 @@ errors the squares of sums over {pattern.BLOCK}x{pattern.BLOCK} pixels are above
 largest such sum in units of its noise. E and E0 share Mitsuba's samples, V has its own. *E0 exact* is the mean of umbrage's E0 over that of a closed form, less 1, and
 the same of Mitsuba's, at points that see the whole light or none of it (a tilted disk has no such form
 here). Mitsuba's density of samples on a sphere has 1 - cos of a small angle in f32: on a wall 18 m away
-from a sphere of 0.3 m its E0 is 5e-5 too large. Blocks of E see that; umbrage's E0 is exact there.
+from a sphere of 0.3 m its E0 is 5e-5 too large. Blocks of E see that; umbrage's E0 is exact there, and
+R, where the density cancels, has no pattern.
 
 Single points are apart by more sigmas than a normal distribution has, because V near 0 or 1 is a count
 of few samples; there, brute force says who is right.
@@ -90,14 +93,14 @@ red (+{SCALE})."""
 
 
 def overview(results):
-    lines = ["| case | V ratio | E ratio | E0 ratio | V excess | E excess | V neighbours | E neighbours | V blocks | E blocks | worst block | E0 exact |",
-             "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    lines = ["| case | V ratio | E ratio | E0 ratio | V excess | E excess | V neighbours | R neighbours | E neighbours | V blocks | R blocks | E blocks | worst block | E0 exact |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     for r in results:
         rows = {row.quantity: row for row in r.rows if row.what == AT_OUR_POINTS}
         ratios = " | ".join(f"{rows[key].ratio:.5f}" for key in ("V", "E", "E0"))
         excess = " | ".join(f"{rows[key].excess:+.1f}" for key in ("V", "E"))
-        neighbours = " | ".join(f"{r.patterns[key].correlation:+.4f} ({r.patterns[key].neighbours:+.1f})" for key in ("V", "E"))
-        blocks = " | ".join(f"{r.patterns[key].blocks:+.1f}" for key in ("V", "E"))
+        neighbours = " | ".join(f"{r.patterns[key].correlation:+.4f} ({r.patterns[key].neighbours:+.1f})" for key in ("V", "R", "E"))
+        blocks = " | ".join(f"{r.patterns[key].blocks:+.1f}" for key in ("V", "R", "E"))
         lines.append(f"| {r.case.name} | {ratios} | {excess} | {neighbours} | {blocks} | {r.patterns['V'].worst:.1f} of {r.patterns['V'].count} | {exact(r)} |")
     return "\n".join(lines)
 
