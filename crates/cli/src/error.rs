@@ -5,7 +5,7 @@ use umbrage_metrics::MetricsError;
 use umbrage_reference::ReferenceError;
 use umbrage_report::ReportError;
 use umbrage_scene::SceneError;
-use umbrage_shadows::ShadowError;
+use umbrage_shadows::{DeviceError, ShadowError};
 
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
@@ -41,7 +41,9 @@ impl CliError {
         match self {
             Self::Usage(_)
             | Self::Scene(SceneError::UnknownName { .. })
-            | Self::Shadow(ShadowError::UnknownBackend { .. } | ShadowError::WrongLight { .. }) => 2,
+            | Self::Shadow(
+                ShadowError::Device(DeviceError::UnknownBackend { .. }) | ShadowError::WrongLight { .. },
+            ) => 2,
             Self::NothingScored(_) => 3,
             Self::Interrupted { .. } => 130,
             _ => 4,

@@ -11,6 +11,7 @@
 mod aim;
 mod cache;
 mod error;
+mod gpu;
 mod irradiance;
 mod owen;
 mod primary;
@@ -27,6 +28,7 @@ mod truth;
 
 pub use cache::{Cache, Source, TruthKey};
 pub use error::ReferenceError;
+pub use gpu::{GpuTracer, Share};
 pub use irradiance::Irradiance;
 pub use primary::{Points, PrimaryHits};
 pub use radiance::RadianceSettings;
