@@ -6,11 +6,15 @@ use crate::receiver::COPLANAR;
 use crate::scanlines::{BEYOND, MARGIN, Ruling, STEP};
 use std::collections::HashMap;
 use std::fmt::Write as _;
+use std::sync::Arc;
 use umbrage_device::Device;
 
 /// In the order of their bindings: the task, then storage buffers.
 const WALK: [bool; 7] = [false, false, false, false, true, true, true];
 const LOOK: [bool; 8] = [false, false, false, false, false, false, true, false];
+
+/// Lanes that share a replicate's rows.
+const STRIDES: u32 = 4;
 
 /// What a pipeline is compiled for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -32,8 +36,8 @@ pub(super) struct Kernel {
 /// All that were needed so far.
 #[derive(Default)]
 pub(super) struct Kernels {
-    walks: HashMap<u32, Kernel>,
-    looks: HashMap<LookFor, Kernel>,
+    walks: HashMap<u32, Arc<Kernel>>,
+    looks: HashMap<LookFor, Arc<Kernel>>,
 }
 
 impl LookFor {
@@ -44,25 +48,14 @@ impl LookFor {
 }
 
 impl Kernels {
-    pub(super) fn compile(&mut self, device: &Device, looks: &[LookFor]) {
-        for &look in looks {
-            let constants = format!(
-                "const SET = {}u;\nconst BASE_ROWS = {}u;\nconst ALL_ROWS = {}u;\nconst PER_ROW = {}u;\nconst LANE_ROWS = {}u;\n",
-                look.set, look.base_rows, look.all_rows, look.per_row, look.all_rows.div_ceil(4)
-            );
-            let walk = || kernel(device, "walk", &walk_source(look.kind), &WALK);
-            self.walks.entry(look.kind).or_insert_with(walk);
-            let compiled = || kernel(device, "look", &look_source(look.kind, &constants), &LOOK);
-            self.looks.entry(look).or_insert_with(compiled);
-        }
+    pub(super) fn walk(&mut self, device: &Device, kind: u32) -> Arc<Kernel> {
+        let compile = || Arc::new(kernel(device, "walk", &walk_source(kind), &WALK));
+        self.walks.entry(kind).or_insert_with(compile).clone()
     }
 
-    pub(super) fn walk(&self, kind: u32) -> &Kernel {
-        &self.walks[&kind]
-    }
-
-    pub(super) fn look(&self, look: &LookFor) -> &Kernel {
-        &self.looks[look]
+    pub(super) fn look(&mut self, device: &Device, look: LookFor) -> Arc<Kernel> {
+        let compile = || Arc::new(kernel(device, "look", &look_source(&look), &LOOK));
+        self.looks.entry(look).or_insert_with(compile).clone()
     }
 }
 
@@ -90,10 +83,20 @@ fn walk_source(kind: u32) -> String {
     [&head(kind), include_str!("task.wgsl"), include_str!("walk.wgsl")].concat()
 }
 
-fn look_source(kind: u32, constants: &str) -> String {
+fn look_source(look: &LookFor) -> String {
+    let mut constants = head(look.kind);
+    for (name, value) in [
+        ("SET", look.set),
+        ("BASE_ROWS", look.base_rows),
+        ("ALL_ROWS", look.all_rows),
+        ("PER_ROW", look.per_row),
+        ("LANE_ROWS", look.all_rows.div_ceil(STRIDES)),
+        ("STRIDES", STRIDES),
+    ] {
+        let _ = writeln!(constants, "const {name} = {value}u;");
+    }
     [
-        &head(kind),
-        constants,
+        constants.as_str(),
         include_str!("task.wgsl"),
         include_str!("words.wgsl"),
         include_str!("exact.wgsl"),

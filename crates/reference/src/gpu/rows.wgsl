@@ -1,7 +1,6 @@
 // The rows of samples that one lane keeps: every fourth of one replicate (scanlines/lines.rs).
 
 const REPLICATES = 8u;
-const STRIDES = 4u;
 const EXTRA = ALL_ROWS - BASE_ROWS;
 const EVERY = 0xffffffffu >> (32u - PER_ROW);
 

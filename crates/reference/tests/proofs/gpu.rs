@@ -2,29 +2,32 @@
 
 use crate::agreement::{assert_ties_only, blocks, differences, lights, large_soup, low_sun, small_soup};
 use crate::common::*;
-use umbrage_device::{AdapterChoice, Device};
-use umbrage_reference::{GpuTracer, GroundTruth, Method, Points, Share, Tracer};
+use std::sync::OnceLock;
+use umbrage_reference::{
+    AdapterChoice, GpuTracer, GroundTruth, Method, Points, Share, Tracer, TruthGpu,
+};
 use umbrage_scene::AreaLight;
 
-fn device() -> Device {
+/// One for all tests: kernels are compiled once.
+fn gpu() -> &'static TruthGpu {
+    static GPU: OnceLock<TruthGpu> = OnceLock::new();
     let message = "these tests need a graphics adapter; a software one will do: \
                    apt-get install mesa-vulkan-drivers libvulkan1";
-    Device::open(&AdapterChoice::default()).expect(message)
+    GPU.get_or_init(|| TruthGpu::open(&AdapterChoice::default()).expect(message))
 }
 
-fn both(device: &Device, tracer: &Tracer, points: &Points, light: &AreaLight) -> ([GroundTruth; 2], Share) {
+fn both(tracer: &Tracer, points: &Points, light: &AreaLight) -> ([GroundTruth; 2], Share) {
     let settings = settings(128, Method::Scanlines);
-    let mut gpu = GpuTracer::new(tracer, device).expect("it fits");
-    let found = gpu.truth(points, light, &settings).expect("the driver does it");
-    ([tracer.truth(points, light, &settings), found], gpu.share())
+    let mut found = GpuTracer::new(tracer, gpu()).expect("it fits");
+    let truth = found.truth(points, light, &settings).expect("the driver does it");
+    ([tracer.truth(points, light, &settings), truth], found.share())
 }
 
 #[test]
 fn blocks_on_a_floor() {
-    let device = device();
     let (tracer, points) = blocks();
     for light in lights().into_iter().chain([low_sun()]) {
-        let (pair, share) = both(&device, &tracer, &points, &light);
+        let (pair, share) = both(&tracer, &points, &light);
         println!("{light:?}: {share:?}");
         assert_ties_only(&format!("{light:?}"), &pair);
     }
@@ -32,10 +35,9 @@ fn blocks_on_a_floor() {
 
 #[test]
 fn a_large_soup() {
-    let device = device();
     let (tracer, points) = large_soup();
     for light in lights() {
-        let (pair, share) = both(&device, &tracer, &points, &light);
+        let (pair, share) = both(&tracer, &points, &light);
         println!("{light:?}: {share:?}");
         assert_ties_only(&format!("{light:?}"), &pair);
     }
@@ -43,13 +45,12 @@ fn a_large_soup() {
 
 #[test]
 fn three_hundred_soups() {
-    let device = device();
     let mut random = Random(12);
     let (mut points_in_all, mut differing, mut partial, mut cpu) = (0, 0, 0, 0);
     for soup in 0..300 {
         let (tracer, points) = small_soup(&mut random);
         let light = lights()[soup % 4];
-        let (pair, share) = both(&device, &tracer, &points, &light);
+        let (pair, share) = both(&tracer, &points, &light);
         let found = differences(&pair);
         assert!(found.iter().all(|&d| d <= 3), "soup {soup}, {light:?}: {found:?}");
         points_in_all += found.len();
@@ -64,14 +65,13 @@ fn three_hundred_soups() {
 
 #[test]
 fn standard_scenes() {
-    let device = device();
     for name in umbrage_scene::builtin_names() {
         let scene = umbrage_scene::Scene::builtin(name).expect("a standard scene");
         let tracer = Tracer::new(&scene).expect("a scene");
         let frames = &scene.paths[0].frames;
         let middle = &frames[frames.len() / 2];
         let points = tracer.primary(&view_of(&middle.camera, [64, 36])).points();
-        let (pair, share) = both(&device, &tracer, &points, &middle.light);
+        let (pair, share) = both(&tracer, &points, &middle.light);
         let differing = differences(&pair);
         let count = differing.iter().filter(|&&d| d > 0).count();
         let worst = differing.iter().max().copied().unwrap_or(0);
