@@ -143,9 +143,12 @@ mod tests {
     #[test]
     fn libraries_stay_with_their_owner() {
         let found = offences(&crates(&[("umbrage-metrics", &["wgpu"]), ("umbrage-shadows", &["wgpu"])]));
-        assert_eq!(found, [
+        assert_eq!(
+            found,
+            [
                 "umbrage-metrics must not use wgpu: only umbrage-device, umbrage-shadows, umbrage-reference does"
-            ]);
+            ]
+        );
     }
 
     #[test]

@@ -40,6 +40,7 @@ impl CliError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Usage(_)
+            | Self::Reference(ReferenceError::Device(DeviceError::UnknownBackend { .. }))
             | Self::Scene(SceneError::UnknownName { .. })
             | Self::Shadow(
                 ShadowError::Device(DeviceError::UnknownBackend { .. }) | ShadowError::WrongLight { .. },
@@ -59,6 +60,9 @@ impl CliError {
             )),
             Self::Scene(SceneError::UnknownName { kind: "scene", .. }) => {
                 Some("`umbrage list scenes` shows the standard ones; a file or folder works too".into())
+            }
+            Self::Reference(ReferenceError::Device(_)) => {
+                Some("`--reference-on cpu` finds the same truth without a GPU".into())
             }
             Self::NothingScored(_) => {
                 Some("look at the pictures of the report; check the camera path and the light".into())

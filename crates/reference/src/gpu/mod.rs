@@ -25,7 +25,7 @@ use rayon::prelude::*;
 use scene::{Planes, Scene};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use task::Task;
-use umbrage_device::{AdapterChoice, AdapterDescription, Device};
+use umbrage_device::{AdapterChoice, AdapterDescription, Device, DeviceError};
 use umbrage_scene::AreaLight;
 
 /// The lights' names in the kernels.
@@ -82,7 +82,13 @@ impl TruthGpu {
     /// # Errors
     /// An unknown backend, no adapter that fits, or one that gives no device.
     pub fn open(choice: &AdapterChoice) -> Result<Self, ReferenceError> {
-        Ok(Self { device: Device::open(choice)?, kernels: Mutex::default() })
+        let device = Device::open(choice)?;
+        let AdapterDescription { name, backend, .. } = device.description();
+        if backend == "noop" {
+            let reason = "it computes nothing".into();
+            return Err(DeviceError::NoDevice { adapter: name.clone(), reason }.into());
+        }
+        Ok(Self { device, kernels: Mutex::default() })
     }
 
     /// Which adapter this is.
@@ -110,6 +116,16 @@ impl<'a> GpuTracer<'a> {
         let buffers = Buffers::new(&gpu.device, run::BATCHES[0]);
         gpu.device.wait()?;
         Ok(Self { tracer, gpu, planes, scene, buffers, share: Share::default() })
+    }
+
+    /// The scene.
+    pub(crate) fn tracer(&self) -> &'a Tracer {
+        self.tracer
+    }
+
+    /// On what.
+    pub(crate) fn adapter(&self) -> &AdapterDescription {
+        self.gpu.description()
     }
 
     /// Who found the last truth.

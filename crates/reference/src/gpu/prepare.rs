@@ -1,11 +1,11 @@
 //! What the host does before each dispatch: which points go to the GPU, and in which company.
 
 use super::Planes;
+use crate::Points;
 use crate::aim::{Aim, Elevation};
 use crate::receiver::Receiver;
 use crate::scanlines::spread;
 use crate::surfaces::Surfaces;
-use crate::Points;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -51,11 +51,7 @@ pub(super) struct Prepared {
 }
 
 impl Prepared {
-    pub(super) fn new(
-        (surfaces, planes): (&Surfaces, &Planes),
-        points: &Points,
-        light: &AreaLight,
-    ) -> Self {
+    pub(super) fn new((surfaces, planes): (&Surfaces, &Planes), points: &Points, light: &AreaLight) -> Self {
         let elevations = elevations(surfaces, planes, light);
         let word = |i: usize| word((surfaces, planes), &elevations, points, i);
         let words: Vec<u32> = (0..points.len()).into_par_iter().map(word).collect();
@@ -169,10 +165,8 @@ struct Run {
 
 /// The GPU's points in an order in which neighbours stand together, and the sizes of groups.
 fn neighbours(points: &Points, words: &[u32]) -> (Vec<u32>, Vec<usize>) {
-    let live: Vec<u32> = (0..points.len() as u32)
-        .into_par_iter()
-        .filter(|&i| words[i as usize] < OTHER)
-        .collect();
+    let live: Vec<u32> =
+        (0..points.len() as u32).into_par_iter().filter(|&i| words[i as usize] < OTHER).collect();
     let (low, high) = live
         .par_iter()
         .map(|&i| (points.position[i as usize], points.position[i as usize]))

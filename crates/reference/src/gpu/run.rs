@@ -82,9 +82,8 @@ impl GpuTracer<'_> {
         let mut kernels = self.gpu.kernels();
         let device = &self.gpu.device;
         let sets = std::iter::once(&rulings.mean).chain(rulings.basis.as_ref()).enumerate();
-        let looks = sets
-            .map(|(set, ruling)| kernels.look(device, LookFor::new(kind, set as u32, ruling)))
-            .collect();
+        let looks =
+            sets.map(|(set, ruling)| kernels.look(device, LookFor::new(kind, set as u32, ruling))).collect();
         let compiled = Compiled { walk: kernels.walk(device, kind), looks };
         device.check()?;
         Ok(compiled)
@@ -136,13 +135,12 @@ impl GpuTracer<'_> {
                 entries: &entries,
             });
             let at = 2 * passes.len() as u32;
-            let timestamp_writes = times.filter(|_| at + 2 <= MOST_TIMES).map(|query_set| {
-                wgpu::ComputePassTimestampWrites {
+            let timestamp_writes =
+                times.filter(|_| at + 2 <= MOST_TIMES).map(|query_set| wgpu::ComputePassTimestampWrites {
                     query_set,
                     beginning_of_pass_write_index: Some(at),
                     end_of_pass_write_index: Some(at + 1),
-                }
-            });
+                });
             passes.push(parts.is_none());
             let descriptor = wgpu::ComputePassDescriptor { label: None, timestamp_writes };
             let mut pass = encoder.begin_compute_pass(&descriptor);

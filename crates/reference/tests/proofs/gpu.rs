@@ -1,11 +1,9 @@
 //! Scanlines on a GPU against scanlines on the CPU: the same samples, the same answer.
 
-use crate::agreement::{assert_ties_only, blocks, differences, lights, large_soup, low_sun, small_soup};
+use crate::agreement::{assert_ties_only, blocks, differences, large_soup, lights, low_sun, small_soup};
 use crate::common::*;
 use std::sync::OnceLock;
-use umbrage_reference::{
-    AdapterChoice, GpuTracer, GroundTruth, Method, Points, Share, Tracer, TruthGpu,
-};
+use umbrage_reference::{AdapterChoice, GpuTracer, GroundTruth, Method, Points, Share, Tracer, TruthGpu};
 use umbrage_scene::AreaLight;
 
 /// One for all tests: kernels are compiled once.

@@ -41,8 +41,10 @@ impl Gpu {
 
     fn execute(&mut self, recording: &Recording, reads_values: bool) -> Result<Shaded, ShadowError> {
         let run = self.prepare(recording)?;
-        let mut encoder =
-            self.device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let mut encoder = self
+            .device
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let mut timed = Vec::new();
         for pass in &recording.passes {
             let written = pass.written();
@@ -200,7 +202,11 @@ impl Gpu {
                 Some(wgpu::BindGroupEntry { binding: binding.number(), resource })
             })
             .collect();
-        self.device.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+        self.device.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
     }
 }
 
