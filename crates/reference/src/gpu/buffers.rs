@@ -4,8 +4,8 @@ use super::prepare::Prepared;
 use umbrage_device::{Device, DeviceError};
 use wgpu::BufferUsages as Usage;
 
-/// Words of the pool of candidates: what a binding holds on every adapter.
-pub(super) const POOL_WORDS: u32 = 1 << 25;
+/// Bytes of the pool of candidates, 40 for each, where a binding holds as much.
+const POOL_BYTES: u64 = 1 << 29;
 
 /// As large as was needed so far.
 pub(super) struct Buffers {
@@ -21,6 +21,8 @@ pub(super) struct Buffers {
 
 impl Buffers {
     pub(super) fn new(device: &Device, groups: usize) -> Self {
+        let limits = device.device.limits();
+        let pool = POOL_BYTES.min(limits.max_storage_buffer_binding_size).min(limits.max_buffer_size) / 4 * 4;
         let none = || buffer(device, "points", 64, Usage::STORAGE | Usage::COPY_DST);
         Self {
             receivers: none(),
@@ -28,7 +30,7 @@ impl Buffers {
             groups: none(),
             results: buffer(device, "results", 64, Usage::STORAGE | Usage::COPY_SRC),
             staging: device.staging(64),
-            pool: buffer(device, "candidates", u64::from(POOL_WORDS) * 4, Usage::STORAGE),
+            pool: buffer(device, "candidates", pool, Usage::STORAGE),
             heads: buffer(device, "lists", groups as u64 * 4, Usage::STORAGE),
             next_free: buffer(device, "next free", 4, Usage::STORAGE | Usage::COPY_DST),
         }

@@ -17,7 +17,7 @@ fn third(line: Line) -> vec3<f32> {
 }
 
 fn keep(s: Sight, t: u32, slot: u32) {
-    let seen = survey(s, slot);
+    let seen = survey(s, slot, corners_of(slot));
     let a = line_of(turn, seen.edges[0]);
     let b = line_of(turn, seen.edges[1]);
     let c = line_of(turn, seen.edges[2]);
@@ -64,31 +64,37 @@ fn keep(s: Sight, t: u32, slot: u32) {
     kept_rows[t] = rows;
 }
 
-fn cover(s: Sight, t: u32, lane: u32) {
+// Hides what is inside one of the triangles on the list.
+fn cover(s: Sight, t: u32) {
     let rows = kept_rows[t];
-    let first = rows & 0xffu;
-    let last = (rows >> 8u) & 0xffu;
     let sides = kept_sides[t];
     let bound = kept_third[t];
-    for (var i = 0u; i < LANE_ROWS; i++) {
-        if STRIDES * i + STRIDES <= first || STRIDES * i >= last {
-            continue;
-        }
-        let y = row_y[i];
-        let x = bound.x * y + bound.y;
-        var places = vec2<f32>(
-            max(sides.x * y + sides.y, min(x, bound.z)),
-            min(sides.z * y + sides.w, max(x, bound.z)),
-        );
-        if (rows & WITH_FOURTH) != 0u {
-            let fourth = kept_fourth[t];
-            let x = fourth.x * y + fourth.y;
-            places = vec2<f32>(max(places.x, min(x, fourth.z)), min(places.y, max(x, fourth.z)));
-        }
-        var bits = between(s, i, places);
-        if (rows & WITH_FORM) != 0u {
-            bits = nearer(s, turn, i, kept_form[t], bits);
-        }
-        row_hidden[i] |= bits;
+    // each row
+    if touched(rows, ROWu) {
+        row_ROW.hidden |= covered(s, t, rows, sides, bound, row_ROW);
     }
+    // end
+}
+
+// Whether a triangle may touch any lane's row of a number.
+fn touched(rows: u32, i: u32) -> bool {
+    return STRIDES * (i + 1u) > (rows & 0xffu) && STRIDES * i < ((rows >> 8u) & 0xffu);
+}
+
+fn covered(s: Sight, t: u32, rows: u32, sides: vec4<f32>, bound: vec3<f32>, row: Row) -> u32 {
+    let x = bound.x * row.y + bound.y;
+    var places = vec2<f32>(
+        max(sides.x * row.y + sides.y, min(x, bound.z)),
+        min(sides.z * row.y + sides.w, max(x, bound.z)),
+    );
+    if (rows & WITH_FOURTH) != 0u {
+        let fourth = kept_fourth[t];
+        let x = fourth.x * row.y + fourth.y;
+        places = vec2<f32>(max(places.x, min(x, fourth.z)), min(places.y, max(x, fourth.z)));
+    }
+    var bits = between(s, row, places);
+    if KIND != SUN && (rows & WITH_FORM) != 0u {
+        bits = nearer(s, turn, row, kept_form[t], bits);
+    }
+    return bits;
 }

@@ -84,13 +84,13 @@ fn walk_source(kind: u32) -> String {
 }
 
 fn look_source(look: &LookFor) -> String {
+    let rows = look.all_rows.div_ceil(STRIDES);
     let mut constants = head(look.kind);
     for (name, value) in [
         ("SET", look.set),
         ("BASE_ROWS", look.base_rows),
         ("ALL_ROWS", look.all_rows),
         ("PER_ROW", look.per_row),
-        ("LANE_ROWS", look.all_rows.div_ceil(STRIDES)),
         ("STRIDES", STRIDES),
     ] {
         let _ = writeln!(constants, "const {name} = {value}u;");
@@ -102,11 +102,26 @@ fn look_source(look: &LookFor) -> String {
         include_str!("exact.wgsl"),
         include_str!("sight.wgsl"),
         include_str!("survey.wgsl"),
-        include_str!("rows.wgsl"),
-        include_str!("cover.wgsl"),
-        include_str!("look.wgsl"),
+        &each_row(include_str!("rows.wgsl"), rows),
+        &each_row(include_str!("cover.wgsl"), rows),
+        &each_row(include_str!("look.wgsl"), rows),
     ]
     .concat()
+}
+
+/// Repeats what is between `// each row` and `// end`, with the row's number for ROW: neither the
+/// language nor wgpu, which bounds loops and indices, keeps rows of an array in registers.
+fn each_row(source: &str, rows: u32) -> String {
+    let mut whole = String::new();
+    for (at, part) in source.split("// each row\n").enumerate() {
+        let (repeated, rest) =
+            if at == 0 { ("", part) } else { part.split_once("// end\n").unwrap_or((part, "")) };
+        for row in 0..rows {
+            whole += &repeated.replace("ROWu", &format!("{row}u")).replace("_ROW", &format!("_{row}"));
+        }
+        whole += rest;
+    }
+    whole
 }
 
 fn kernel(device: &Device, name: &'static str, source: &str, written: &[bool]) -> Kernel {

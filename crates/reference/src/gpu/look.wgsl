@@ -35,7 +35,7 @@ fn look(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
     let group = groups[task.first_group + workgroup.x];
     let head = heads[workgroup.x];
     // The candidates, at most 32, among which is the one that hid the light from the last receiver.
-    var last = vec2<u32>(0u, 0u);
+    var last = vec3<u32>(0u);
     let end = min((workgroup.y + 1u) * RECEIVERS, group.count);
     for (var n = workgroup.y * RECEIVERS; n < end; n++) {
         let index = group.first + n;
@@ -59,7 +59,7 @@ fn look(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
         drawn = false;
         let outcome = hide(s, index, head, last, lane);
         if outcome.x == HIDDEN {
-            last = outcome.yz;
+            last = outcome.yzw;
         }
         if outcome.x != 0u {
             if lane == 0u {
@@ -78,21 +78,21 @@ fn look(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
 
 // Hides the samples: LIT or HIDDEN (with the candidates that tell) where all or none are visible for
 // sure, otherwise 0.
-fn hide(s: Sight, index: u32, head: u32, last: vec2<u32>, lane: u32) -> vec3<u32> {
+fn hide(s: Sight, index: u32, head: u32, last: vec3<u32>, lane: u32) -> vec4<u32> {
     if lane == 0u {
         atomicStore(&tally, 0u);
     }
     workgroupBarrier();
     // What hid the light from the neighbour comes first.
     if last.y > 0u {
-        if lane < last.y && survey(s, pool[last.x + lane]).whole {
+        if lane < last.y && candidate(s, last.x + lane, last.z).whole {
             atomicOr(&tally, WHOLE);
         }
         workgroupBarrier();
         let hidden = atomicLoad(&tally) != 0u;
         workgroupBarrier();
         if hidden {
-            return vec3<u32>(HIDDEN, last);
+            return vec4<u32>(HIDDEN, last);
         }
     }
     var at = head;
@@ -101,23 +101,22 @@ fn hide(s: Sight, index: u32, head: u32, last: vec2<u32>, lane: u32) -> vec3<u32
         for (var i = 0u; i < length; i += LANES) {
             let place = at + 2u + i;
             if i + lane < length {
-                let slot = pool[place + lane];
-                let seen = survey(s, slot);
+                let seen = candidate(s, place + lane, length);
                 if seen.whole {
                     atomicOr(&tally, WHOLE);
                 } else if seen.some {
-                    kept[atomicAdd(&tally, 1u) & 0xffu] = slot;
+                    kept[atomicAdd(&tally, 1u) & 0xffu] = pool[place + lane];
                 }
             }
             workgroupBarrier();
             let now = atomicLoad(&tally);
             workgroupBarrier();
             if now >= WHOLE {
-                return vec3<u32>(HIDDEN, place, min(length - i, LANES));
+                return vec4<u32>(HIDDEN, place, min(length - i, LANES), length);
             }
             if now > KEPT - LANES {
                 if !settle(s, index, now, lane) {
-                    return vec3<u32>(0u);
+                    return vec4<u32>(0u);
                 }
             }
         }
@@ -128,7 +127,19 @@ fn hide(s: Sight, index: u32, head: u32, last: vec2<u32>, lane: u32) -> vec3<u32
     if rest > 0u || (s.across && !drawn) {
         settle(s, index, rest, lane);
     }
-    return vec3<u32>(select(LIT, 0u, drawn), 0u, 0u);
+    return vec4<u32>(select(LIT, 0u, drawn), 0u, 0u, 0u);
+}
+
+// Looks at a candidate by its place in a chunk of the list: the slots, then each coordinate of all.
+fn candidate(s: Sight, place: u32, length: u32) -> Seen {
+    let triangle = mat3x3<f32>(
+        corner(place + length, length), corner(place + 4u * length, length), corner(place + 7u * length, length),
+    );
+    return survey(s, pool[place], triangle);
+}
+
+fn corner(place: u32, length: u32) -> vec3<f32> {
+    return bitcast<vec3<f32>>(vec3<u32>(pool[place], pool[place + length], pool[place + 2u * length]));
 }
 
 // Hides the samples behind the triangles on the list and empties it; whether any is visible still.
@@ -136,14 +147,16 @@ fn settle(s: Sight, index: u32, count: u32, lane: u32) -> bool {
     if !drawn {
         let seed = seed_of(index);
         turn = turn_of(seed);
-        draw(s, turn, seed, lane);
+        let ruling = ruling_of(turn, seed, lane);
+        // each row
+        row_ROW = drawn_row(s, ruling, STRIDES * ROWu + lane / REPLICATES);
+        // end
         drawn = true;
         if s.across {
             let below = line_of(turn, -s.horizon);
-            for (var i = 0u; i < LANE_ROWS; i++) {
-                let x = below.slope * row_y[i] + below.at;
-                row_hidden[i] |= between(s, i, select(vec2<f32>(-BEYOND, x), vec2<f32>(x, BEYOND), below.left));
-            }
+            // each row
+            row_ROW.hidden = under(s, below, row_ROW);
+            // end
         }
     }
     for (var t = lane; t < count; t += LANES) {
@@ -154,12 +167,12 @@ fn settle(s: Sight, index: u32, count: u32, lane: u32) -> bool {
     }
     workgroupBarrier();
     for (var t = 0u; t < count; t++) {
-        cover(s, t, lane);
+        cover(s, t);
     }
     var open = 0u;
-    for (var i = 0u; i < LANE_ROWS; i++) {
-        open |= row_inside[i] & ~row_hidden[i];
-    }
+    // each row
+    open |= row_ROW.inside & ~row_ROW.hidden;
+    // end
     if open != 0u {
         atomicOr(&tally, VISIBLE);
     }
@@ -173,13 +186,23 @@ fn settle(s: Sight, index: u32, count: u32, lane: u32) -> bool {
     return visible;
 }
 
+// The samples below the horizon.
+fn under(s: Sight, below: Line, row: Row) -> u32 {
+    let x = below.slope * row.y + below.at;
+    return between(s, row, select(vec2<f32>(-BEYOND, x), vec2<f32>(x, BEYOND), below.left));
+}
+
+// Visible samples, and in the upper half all.
+fn counted(row: Row) -> u32 {
+    return countOneBits(row.inside & ~row.hidden) + (countOneBits(row.inside) << 16u);
+}
+
 // Counts the samples and writes what they say.
 fn tell(to: u32, lane: u32) {
     var count = 0u;
-    for (var i = 0u; i < LANE_ROWS; i++) {
-        let inside = row_inside[i];
-        count += countOneBits(inside & ~row_hidden[i]) + (countOneBits(inside) << 16u);
-    }
+    // each row
+    count += counted(row_ROW);
+    // end
     counts[lane] = count;
     workgroupBarrier();
     if lane == 0u {

@@ -51,6 +51,8 @@ pub struct GpuTracer<'a> {
     planes: Planes,
     scene: Scene,
     buffers: Buffers,
+    /// With which of `run::BATCHES` a call begins.
+    company: usize,
     share: Share,
 }
 
@@ -115,7 +117,7 @@ impl<'a> GpuTracer<'a> {
         let scene = Scene::new(tracer, &planes, &gpu.device)?;
         let buffers = Buffers::new(&gpu.device, run::BATCHES[0]);
         gpu.device.wait()?;
-        Ok(Self { tracer, gpu, planes, scene, buffers, share: Share::default() })
+        Ok(Self { tracer, gpu, planes, scene, buffers, company: 0, share: Share::default() })
     }
 
     /// The scene.

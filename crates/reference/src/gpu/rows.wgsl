@@ -4,12 +4,20 @@ const REPLICATES = 8u;
 const EXTRA = ALL_ROWS - BASE_ROWS;
 const EVERY = 0xffffffffu >> (32u - PER_ROW);
 
-// Across the rows; on a cone, the cosine of the row's angle; where the samples start along it.
-var<private> row_y: array<f32, LANE_ROWS>;
-var<private> row_cos: array<f32, LANE_ROWS>;
-var<private> row_shift: array<f32, LANE_ROWS>;
-var<private> row_inside: array<u32, LANE_ROWS>;
-var<private> row_hidden: array<u32, LANE_ROWS>;
+struct Row {
+    // Across the rows; on a cone, the cosine of the row's angle; where the samples start along it.
+    y: f32,
+    cosine: f32,
+    shift: f32,
+    inside: u32,
+    hidden: u32,
+}
+
+// Rows are named, not numbered: loops over an array would keep it in memory. The host writes what is
+// between `each row` and `end` LANE_ROWS times.
+// each row
+var<private> row_ROW: Row;
+// end
 
 // How rows lie on the light: x = xx x' + xy y', y = yx x' + yy y' as (xx, xy, yx, yy).
 fn turn_of(seed: vec2<u32>) -> vec4<f32> {
@@ -48,51 +56,60 @@ fn before(place: f32) -> u32 {
     return select((1u << (number & 31u)) - 1u, 0xffffffffu, number == 32u);
 }
 
-fn draw(s: Sight, turn: vec4<f32>, seed: vec2<u32>, lane: u32) {
-    let replicate = lane % REPLICATES;
-    let key = mix(sum(seed, vec2<u32>((replicate + 1u) << 8u, 0u)));
-    let across = unit(key.x);
-    let along = unit(key.y);
+// What the rows of a replicate share.
+struct Ruling {
+    across: f32,
+    along: f32,
+    step: f32,
+    falls: bool,
+    // The first row: rows that rise start below the light, rows that fall end above it.
+    first: f32,
+    middle: f32,
+}
+
+fn ruling_of(turn: vec4<f32>, seed: vec2<u32>, lane: u32) -> Ruling {
+    let key = mix(sum(seed, vec2<u32>((lane % REPLICATES + 1u) << 8u, 0u)));
     let rest = ((key.x & 0xffu) << 8u) | (key.y & 0xffu);
     let step = STEP_LEAST + STEP_RANGE * (f32(rest) * (1.0 / 65536.0));
     let falls = turn.z < 0.0;
-    // Rows that rise start below the light, rows that fall end above it.
     let first = select(-f32(EXTRA), 0.0, ROUND || falls);
     let middle = select(select(0.5, -0.5, falls) * f32(EXTRA), 0.0, ROUND);
-    for (var i = 0u; i < LANE_ROWS; i++) {
-        let j = STRIDES * i + lane / REPLICATES;
-        let at = first + f32(j);
-        // A row that leaves on one side comes back on the other: the same shift along it.
-        let name = (j + select(BASE_ROWS - EXTRA, 0u, ROUND || falls)) % BASE_ROWS;
-        let shift = along + f32(name) * step;
-        row_shift[i] = shift - floor(shift);
-        let y = 2.0 * (at + across + middle) / f32(BASE_ROWS) - 1.0;
-        row_y[i] = y;
-        row_hidden[i] = 0u;
-        if j >= ALL_ROWS {
-            row_inside[i] = 0u;
-        } else if ROUND {
-            row_inside[i] = within(s, i);
-        } else {
-            row_inside[i] = wrapped(at, across, row_shift[i], falls);
-        }
+    return Ruling(unit(key.x), unit(key.y), step, falls, first, middle);
+}
+
+fn drawn_row(s: Sight, ruling: Ruling, j: u32) -> Row {
+    var row: Row;
+    let at = ruling.first + f32(j);
+    // A row that leaves on one side comes back on the other: the same shift along it.
+    let name = (j + select(BASE_ROWS - EXTRA, 0u, ROUND || ruling.falls)) % BASE_ROWS;
+    let shift = ruling.along + f32(name) * ruling.step;
+    row.shift = shift - floor(shift);
+    row.y = 2.0 * (at + ruling.across + ruling.middle) / f32(BASE_ROWS) - 1.0;
+    if ROUND {
+        row = within(s, row);
+    } else {
+        row.inside = wrapped(at, ruling.across, row.shift, ruling.falls);
     }
+    row.inside = select(0u, row.inside, j < ALL_ROWS);
+    return row;
 }
 
 // The samples of a row that are on a round light.
-fn within(s: Sight, i: u32) -> u32 {
-    var reach2 = 1.0 - row_y[i] * row_y[i];
+fn within(s: Sight, drawn: Row) -> Row {
+    var row = drawn;
+    var reach2 = 1.0 - row.y * row.y;
     if CONE {
-        let at = sin_cos(row_y[i] * s.cone.x);
+        let at = sin_cos(row.y * s.cone.x);
         let height = at.x / s.cone.y;
-        row_y[i] = at.x / (at.y * s.cone.z);
-        row_cos[i] = at.y;
+        row.y = at.x / (at.y * s.cone.z);
+        row.cosine = at.y;
         reach2 = (1.0 - height * height) / (at.y * at.y);
     }
     let half = 0.5 * f32(PER_ROW);
     let wide = sqrt(max(reach2, 0.0)) * half;
-    let centre = half - row_shift[i];
-    return before(centre + wide) & ~before(centre - wide);
+    let centre = half - row.shift;
+    row.inside = before(centre + wide) & ~before(centre - wide);
+    return row;
 }
 
 // The samples of a row that are on a rectangle. Its other end has the same part, so that the two split
@@ -117,29 +134,29 @@ fn along_cone(s: Sight, x: f32, cosine: f32) -> f32 {
 }
 
 // The samples between two places of a row.
-fn between(s: Sight, i: u32, places: vec2<f32>) -> u32 {
+fn between(s: Sight, row: Row, places: vec2<f32>) -> u32 {
     var span = places;
     if CONE {
-        span = vec2<f32>(along_cone(s, places.x, row_cos[i]), along_cone(s, places.y, row_cos[i]));
+        span = vec2<f32>(along_cone(s, places.x, row.cosine), along_cone(s, places.y, row.cosine));
     }
     let half = 0.5 * f32(PER_ROW);
-    let centre = half - row_shift[i];
+    let centre = half - row.shift;
     return before(span.y * half + centre) & ~before(span.x * half + centre);
 }
 
 // Those of some samples at which a form is larger than the light's nearness.
-fn nearer(s: Sight, turn: vec4<f32>, i: u32, form: vec3<f32>, asked: u32) -> u32 {
-    var bits = asked & row_inside[i] & ~row_hidden[i];
+fn nearer(s: Sight, turn: vec4<f32>, row: Row, form: vec3<f32>, asked: u32) -> u32 {
+    var bits = asked & row.inside & ~row.hidden;
     var hidden = 0u;
     while bits != 0u {
         let sample = firstTrailingBit(bits);
         bits &= bits - 1u;
-        var x = 2.0 * (f32(sample) + row_shift[i]) / f32(PER_ROW) - 1.0;
+        var x = 2.0 * (f32(sample) + row.shift) / f32(PER_ROW) - 1.0;
         if CONE {
             let sine = x * s.cone.y;
-            x = sine / (row_cos[i] * sqrt(1.0 - sine * sine) * s.cone.z);
+            x = sine / (row.cosine * sqrt(1.0 - sine * sine) * s.cone.z);
         }
-        let at = vec2<f32>(turn.x * x + turn.y * row_y[i], turn.z * x + turn.w * row_y[i]);
+        let at = vec2<f32>(turn.x * x + turn.y * row.y, turn.z * x + turn.w * row.y);
         if dot(form, vec3<f32>(at, 1.0)) * (1.0 - LIGHT_GAP) > nearness(s, at) {
             hidden |= 1u << sample;
         }

@@ -1,6 +1,6 @@
 //! Dispatches: groups in batches that share the pool of candidates.
 
-use super::buffers::{Buffers, POOL_WORDS};
+use super::buffers::Buffers;
 use super::kernels::{Kernel, LookFor};
 use super::prepare::{Group, Prepared};
 use super::scene::Scene;
@@ -14,9 +14,10 @@ use std::sync::Arc;
 use umbrage_scene::AreaLight;
 use wgpu::BufferUsages as Usage;
 
-/// Groups that share the pool: 2048 candidates each; those that found no room share it again in
-/// smaller companies.
-pub(super) const BATCHES: [usize; 4] = [16_384, 1024, 64, 4];
+/// Groups that share the pool; those that found no room share it again in smaller companies.
+pub(super) const BATCHES: [usize; 6] = [16_384, 4096, 1024, 256, 64, 4];
+/// Where more than this part of the groups found no room, the next call begins with smaller companies.
+const CROWDED: usize = 8;
 /// Timestamps of a round, two a pass.
 const MOST_TIMES: u32 = 512;
 /// Parts of a group of 64, each a workgroup's (`RECEIVERS` in look.wgsl).
@@ -47,10 +48,11 @@ impl GpuTracer<'_> {
         queue.write_buffer(&self.buffers.receivers, 0, bytemuck::cast_slice(&prepared.receivers));
         queue.write_buffer(&self.buffers.order, 0, bytemuck::cast_slice(&prepared.order));
         task.extent = self.tracer.surfaces.extent;
-        task.pool_words = POOL_WORDS;
+        task.pool_words = (self.buffers.pool.size() / 4) as u32;
         task.root = self.scene.root;
         let mut groups = Cow::Borrowed(&prepared.groups[..]);
-        for size in BATCHES {
+        let mut company = self.company;
+        for (round, &size) in BATCHES[self.company..].iter().enumerate() {
             queue.write_buffer(&self.buffers.groups, 0, bytemuck::cast_slice(&groups));
             let times = device.timestamps("truth", MOST_TIMES);
             let mut passes = Passes::new();
@@ -71,8 +73,12 @@ impl GpuTracer<'_> {
             if left.is_empty() {
                 break;
             }
+            if round == 0 && left.len() > groups.len() / CROWDED {
+                company = (self.company + 1).min(BATCHES.len() - 1);
+            }
             groups = Cow::Owned(left);
         }
+        self.company = company;
         Ok(())
     }
 

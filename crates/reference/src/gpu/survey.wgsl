@@ -29,11 +29,15 @@ fn reach(e: vec3<f32>) -> f32 {
     return abs(e.x) + abs(e.y);
 }
 
-fn survey(s: Sight, slot: u32) -> Seen {
+fn corners_of(slot: u32) -> mat3x3<f32> {
+    return mat3x3<f32>(corners[3u * slot].xyz, corners[3u * slot + 1u].xyz, corners[3u * slot + 2u].xyz);
+}
+
+fn survey(s: Sight, slot: u32, triangle: mat3x3<f32>) -> Seen {
     var seen: Seen;
-    let corner_a = corners[3u * slot].xyz;
-    let corner_b = corners[3u * slot + 1u].xyz;
-    let corner_c = corners[3u * slot + 2u].xyz;
+    let corner_a = triangle[0];
+    let corner_b = triangle[1];
+    let corner_c = triangle[2];
     let da = (corner_a - s.place) - s.rest;
     let db = (corner_b - s.place) - s.rest;
     let dc = (corner_c - s.place) - s.rest;

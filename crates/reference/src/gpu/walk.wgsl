@@ -27,7 +27,11 @@ var<workgroup> chunk: u32;
 var<workgroup> before: u32;
 
 // Planes turned inwards, w their offset. A plane of zeros holds everything.
-var<private> planes: array<vec4<f32>, 5>;
+var<private> plane_0: vec4<f32>;
+var<private> plane_1: vec4<f32>;
+var<private> plane_2: vec4<f32>;
+var<private> plane_3: vec4<f32>;
+var<private> plane_4: vec4<f32>;
 var<private> low: vec3<f32>;
 var<private> high: vec3<f32>;
 
@@ -47,9 +51,10 @@ fn side(axis: vec3<f32>, at: vec3<f32>, along: vec3<f32>) -> vec4<f32> {
 
 fn set_sides(middle: vec3<f32>) {
     if KIND == SUN {
-        for (var i = 0u; i < 4u; i++) {
-            planes[i] = task.sides[i];
-        }
+        plane_0 = task.sides[0];
+        plane_1 = task.sides[1];
+        plane_2 = task.sides[2];
+        plane_3 = task.sides[3];
         return;
     }
     let axis = task.centre - middle;
@@ -66,10 +71,10 @@ fn set_sides(middle: vec3<f32>) {
         u = pair[0] * width;
         v = pair[1] * width;
     }
-    planes[0] = side(axis, axis + u, v);
-    planes[1] = side(axis, axis - u, v);
-    planes[2] = side(axis, axis + v, u);
-    planes[3] = side(axis, axis - v, u);
+    plane_0 = side(axis, axis + u, v);
+    plane_1 = side(axis, axis - u, v);
+    plane_2 = side(axis, axis + v, u);
+    plane_3 = side(axis, axis - v, u);
 }
 
 // The light's lowest height over a plane. A sun's sides are the same from everywhere.
@@ -84,32 +89,35 @@ fn lowest_of_light(n: vec3<f32>) -> f32 {
     return min(a, min(dot(n, task.corners[2].xyz), dot(n, task.corners[3].xyz)));
 }
 
+// How low the receivers and the light stand over a plane; w is 0 where there is none.
+fn offset(plane: vec4<f32>, receivers: f32, slack: f32) -> f32 {
+    return select(min(receivers, lowest_of_light(plane.xyz)) - slack, -1.0, plane.w == 0.0);
+}
+
 fn touches(box_low: vec3<f32>, box_high: vec3<f32>) -> bool {
     if any(box_low > high) || any(box_high < low) {
         return false;
     }
     let centre = 0.5 * (box_low + box_high);
     let half = 0.5 * (box_high - box_low);
-    for (var i = 0u; i < 5u; i++) {
-        let n = planes[i].xyz;
-        if dot(n, centre) + dot(abs(n), half) < planes[i].w {
-            return false;
-        }
-    }
-    return true;
+    return reaches(plane_0, centre, half) && reaches(plane_1, centre, half) && reaches(plane_2, centre, half)
+        && reaches(plane_3, centre, half) && reaches(plane_4, centre, half);
+}
+
+fn reaches(plane: vec4<f32>, centre: vec3<f32>, half: vec3<f32>) -> bool {
+    return dot(plane.xyz, centre) + dot(abs(plane.xyz), half) >= plane.w;
 }
 
 fn misses(slot: u32) -> bool {
     let a = corners[3u * slot].xyz;
     let b = corners[3u * slot + 1u].xyz;
     let c = corners[3u * slot + 2u].xyz;
-    for (var i = 0u; i < 5u; i++) {
-        let n = planes[i].xyz;
-        if max(dot(n, a), max(dot(n, b), dot(n, c))) < planes[i].w {
-            return true;
-        }
-    }
-    return false;
+    return below(plane_0, a, b, c) || below(plane_1, a, b, c) || below(plane_2, a, b, c)
+        || below(plane_3, a, b, c) || below(plane_4, a, b, c);
+}
+
+fn below(plane: vec4<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    return max(dot(plane.xyz, a), max(dot(plane.xyz, b), dot(plane.xyz, c))) < plane.w;
 }
 
 @compute @workgroup_size(64)
@@ -118,12 +126,12 @@ fn walk(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
     let slack = ROUNDING * (task.extent + max(max_of(abs(group.low)), max_of(abs(group.high))));
     // The volume: planes as low as the lowest receiver and the light.
     set_sides(0.5 * (group.low + group.high));
-    planes[4] = vec4<f32>(group.normal, 0.0);
+    plane_4 = vec4<f32>(group.normal, 0.0);
     low = min(group.low, task.low.xyz) - slack;
     high = max(group.high, task.high.xyz) + slack;
     let at = bitcast<vec3<f32>>(receivers[group.first + min(lane, group.count - 1u)].xyz);
     least[lane] = vec4<f32>(
-        dot(planes[0].xyz, at), dot(planes[1].xyz, at), dot(planes[2].xyz, at), dot(planes[3].xyz, at),
+        dot(plane_0.xyz, at), dot(plane_1.xyz, at), dot(plane_2.xyz, at), dot(plane_3.xyz, at),
     );
     least_over[lane] = dot(group.normal, at);
     if lane == 0u {
@@ -142,11 +150,11 @@ fn walk(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
         }
     }
     workgroupBarrier();
-    for (var i = 0u; i < 4u; i++) {
-        let n = planes[i].xyz;
-        planes[i].w = select(min(least[0][i], lowest_of_light(n)) - slack, -1.0, planes[i].w == 0.0);
-    }
-    planes[4].w = select(least_over[0] - slack, -1.0, all(group.normal == vec3<f32>(0.0)));
+    plane_0.w = offset(plane_0, least[0].x, slack);
+    plane_1.w = offset(plane_1, least[0].y, slack);
+    plane_2.w = offset(plane_2, least[0].z, slack);
+    plane_3.w = offset(plane_3, least[0].w, slack);
+    plane_4.w = select(least_over[0] - slack, -1.0, all(group.normal == vec3<f32>(0.0)));
     // The walk.
     loop {
         let top = atomicLoad(&opened);
@@ -213,7 +221,8 @@ fn visit(index: u32) {
     }
 }
 
-// Appends what was found to the group's list: a chunk is the next one's place, its length, its slots.
+// Appends what was found to the group's list: a chunk is the next one's place, its length, its slots,
+// then each coordinate of all their corners.
 fn list(group: u32, lane: u32) {
     let length = min(atomicLoad(&count), FOUND);
     workgroupBarrier();
@@ -221,9 +230,10 @@ fn list(group: u32, lane: u32) {
         return;
     }
     if lane == 0u {
-        let place = atomicAdd(&next_free, length + 2u);
+        let words = 10u * length + 2u;
+        let place = atomicAdd(&next_free, words);
         chunk = place;
-        if place > task.pool_words || length + 2u > task.pool_words - place {
+        if place > task.pool_words || words > task.pool_words - place {
             atomicOr(&lost, 2u);
             chunk = NONE;
         } else {
@@ -241,7 +251,15 @@ fn list(group: u32, lane: u32) {
     workgroupBarrier();
     if chunk != NONE {
         for (var i = lane; i < length; i += THREADS) {
-            pool[chunk + 2u + i] = found[i];
+            let at = chunk + 2u + i;
+            let slot = found[i];
+            pool[at] = slot;
+            for (var k = 0u; k < 3u; k++) {
+                let corner = bitcast<vec3<u32>>(corners[3u * slot + k].xyz);
+                pool[at + (3u * k + 1u) * length] = corner.x;
+                pool[at + (3u * k + 2u) * length] = corner.y;
+                pool[at + (3u * k + 3u) * length] = corner.z;
+            }
         }
     }
     workgroupBarrier();
