@@ -118,7 +118,8 @@ impl Points {
 }
 
 impl GroundTruth {
-    fn sized(points: usize, basis: bool) -> Self {
+    /// Zeros.
+    pub(crate) fn sized(points: usize, basis: bool) -> Self {
         let zeros = || vec![0.0; points];
         Self {
             mean: zeros(),
@@ -130,7 +131,8 @@ impl GroundTruth {
         }
     }
 
-    fn put(&mut self, group: &[u32], found: &Self) {
+    /// Some points by their indices.
+    pub(crate) fn put(&mut self, group: &[u32], found: &Self) {
         for (i, &at) in group.iter().enumerate() {
             let at = at as usize;
             self.mean[at] = found.mean[i];

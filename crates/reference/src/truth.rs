@@ -178,17 +178,6 @@ impl GroundTruth {
             facing: each.iter().map(|p| p.facing).collect(),
         }
     }
-
-    /// One point's share.
-    pub(crate) fn point(&self, index: usize) -> PointTruth {
-        PointTruth {
-            halves: [self.halves[0][index], self.halves[1][index]],
-            basis: self.basis.get(index).copied().unwrap_or_default(),
-            mean: self.mean[index],
-            variance: self.variance[index],
-            facing: self.facing[index],
-        }
-    }
 }
 
 impl TruthSettings {

@@ -53,8 +53,7 @@ impl Buffers {
             device.fits(results, Usage::STORAGE)?;
             self.results = buffer(device, "results", results, Usage::STORAGE | Usage::COPY_SRC);
         }
-        // It is read as a whole.
-        if self.staging.size() != results {
+        if self.staging.size() < results {
             self.staging = device.staging(results);
         }
         Ok(())

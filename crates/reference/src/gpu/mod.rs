@@ -169,15 +169,16 @@ impl<'a> GpuTracer<'a> {
             self.share.cpu += points.len();
             return Ok(self.tracer.equal(points, light, settings));
         };
-        let mut each = Vec::new();
-        for start in (0..points.len()).step_by(MOST_POINTS) {
-            let end = (start + MOST_POINTS).min(points.len());
-            match end - start == points.len() {
-                true => each = self.some(points, (light, task), settings)?,
-                false => each.extend(self.some(&points.range(start..end), (light, task), settings)?),
-            }
+        if points.len() <= MOST_POINTS {
+            return self.some(points, (light, task), settings);
         }
-        Ok(GroundTruth::of(&each, settings, samples(settings, light)))
+        let mut all = GroundTruth::sized(points.len(), settings.basis_samples > 0);
+        for start in (0..points.len()).step_by(MOST_POINTS) {
+            let range = start..(start + MOST_POINTS).min(points.len());
+            let found = self.some(&points.range(range.clone()), (light, task), settings)?;
+            all.put(&range.map(|i| i as u32).collect::<Vec<u32>>(), &found);
+        }
+        Ok(all)
     }
 
     /// As many points as fit.
@@ -186,35 +187,54 @@ impl<'a> GpuTracer<'a> {
         points: &Points,
         (light, task): (&AreaLight, Task),
         settings: &TruthSettings,
-    ) -> Result<Vec<PointTruth>, ReferenceError> {
+    ) -> Result<GroundTruth, ReferenceError> {
         let prepared = Prepared::new((&self.tracer.surfaces, &self.planes), points, light);
-        let basis = settings.basis_samples > 0;
-        let decode = |(&word, result): (&u32, &[u32; 4])| decode(word, result, basis);
-        let mut each: Vec<Option<PointTruth>> = if prepared.order.is_empty() {
-            prepared.words.par_iter().map(|word| decode((word, &[FOR_CPU; 4]))).collect()
+        let count = points.len();
+        let mut truth = GroundTruth::sized(count, settings.basis_samples > 0);
+        truth.samples.fill(samples(settings, light));
+        let marked = if prepared.order.is_empty() {
+            decode(&prepared.words, &vec![[FOR_CPU; 4]; count], &mut truth)
         } else {
             self.look(&prepared, (light, task), settings)?;
             self.gpu.device.read_with(&self.buffers.staging, |bytes| {
-                prepared.words.par_iter().zip(bytemuck::cast_slice(bytes)).map(decode).collect()
+                decode(&prepared.words, bytemuck::cast_slice(&bytes[..16 * count]), &mut truth)
             })?
         };
-        let marked: Vec<u32> = (0..each.len() as u32).filter(|&i| each[i as usize].is_none()).collect();
         let below = prepared.words.par_iter().filter(|&&w| w == BELOW).count();
         self.share.below += below;
         self.share.cpu += marked.len();
-        self.share.gpu += points.len() - below - marked.len();
+        self.share.gpu += count - below - marked.len();
         if !marked.is_empty() {
-            let found = self.tracer.equal(&points.pick(&marked), light, settings);
-            for (at, &i) in marked.iter().enumerate() {
-                each[i as usize] = Some(found.point(at));
-            }
+            truth.put(&marked, &self.tracer.equal(&points.pick(&marked), light, settings));
         }
-        Ok(each.into_par_iter().map(|p| p.unwrap_or(PointTruth::exact(0.0, false))).collect())
+        Ok(truth)
     }
 }
 
+/// Fills in what the GPU found; the points that are the CPU's.
+fn decode(words: &[u32], results: &[[u32; 4]], truth: &mut GroundTruth) -> Vec<u32> {
+    let [first, second] = &mut truth.halves;
+    let mean = truth.mean.par_iter_mut().zip(first).zip(second).zip(&mut truth.variance);
+    let into = mean.zip(&mut truth.facing);
+    let from = words.par_iter().zip(results);
+    let marked = into
+        .zip(from)
+        .enumerate()
+        .filter_map(|(i, (((((mean, first), second), variance), facing), (&word, result)))| {
+            let Some(point) = point(word, result) else { return Some(i as u32) };
+            (*mean, [*first, *second], *variance) = (point.mean, point.halves, point.variance);
+            *facing = point.facing;
+            None
+        })
+        .collect();
+    truth.basis.par_iter_mut().zip(words.par_iter().zip(results)).for_each(|(basis, (&word, result))| {
+        *basis = point(word, result).map_or(0.0, |p| p.basis);
+    });
+    marked
+}
+
 /// One point; `None` where it is the CPU's.
-fn decode(word: u32, result: &[u32; 4], basis: bool) -> Option<PointTruth> {
+fn point(word: u32, result: &[u32; 4]) -> Option<PointTruth> {
     match word {
         BELOW => return Some(PointTruth::exact(0.0, false)),
         OTHER => return None,
@@ -231,7 +251,7 @@ fn decode(word: u32, result: &[u32; 4], basis: bool) -> Option<PointTruth> {
     let halves = [first, second].map(|h| f64::from(h & 0xffff) / f64::from(h >> 16).max(1.0));
     Some(PointTruth {
         halves: halves.map(|h| h as f32),
-        basis: if basis { f32::from_bits(share) } else { 0.0 },
+        basis: f32::from_bits(share),
         mean: (0.5 * (halves[0] + halves[1])) as f32,
         variance: f32::from_bits(variance),
         facing,

@@ -15,8 +15,10 @@ use umbrage_scene::AreaLight;
 const TOGETHER: usize = 64;
 /// Points that stay together when the others are sorted.
 const RUN: usize = 8;
-/// Bits of a place's code that all points of a run share: the 128th part of the scene on each axis.
-const NEAR: u32 = 42;
+/// How near they lie, in parts of the scene's largest coordinate.
+const NEAR: f32 = 1.0 / 64.0;
+/// Points that a thread takes at a time.
+const CHUNK: usize = 4096;
 
 /// Words of a point: the slot of its triangle, what it sees, or why it is not the GPU's.
 pub(super) const IN_AIR: u32 = 0x0fff_ffff;
@@ -53,26 +55,48 @@ pub(super) struct Prepared {
 impl Prepared {
     pub(super) fn new((surfaces, planes): (&Surfaces, &Planes), points: &Points, light: &AreaLight) -> Self {
         let elevations = elevations(surfaces, planes, light);
-        let word = |i: usize| word((surfaces, planes), &elevations, points, i);
-        let words: Vec<u32> = (0..points.len()).into_par_iter().map(word).collect();
-        let (order, counts) = neighbours(points, &words);
-        let receivers = order
-            .par_iter()
-            .map(|&i| {
-                let [x, y, z] = (points.position[i as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
-                [x, y, z, words[i as usize]]
+        let mut words = vec![0; points.len()];
+        let mut runs: Vec<Run> = words
+            .par_chunks_mut(CHUNK)
+            .enumerate()
+            .flat_map_iter(|(chunk, words)| {
+                let first = chunk * CHUNK;
+                for (word, i) in words.iter_mut().zip(first..) {
+                    *word = self::word((surfaces, planes), &elevations, points, i);
+                }
+                runs(points, words, (first, surfaces.extent))
             })
             .collect();
-        let mut first = 0;
-        let ranges: Vec<Range<usize>> = counts
-            .into_iter()
-            .map(|count| {
-                first += count;
-                first - count..first
+        runs.par_sort_unstable_by_key(|run| (run.key, run.first));
+        let companies = split(&runs);
+        let mut order = vec![0; count(&runs)];
+        let mut receivers = vec![[0; 4]; order.len()];
+        let (mut order_left, mut receivers_left, mut first) = (&mut order[..], &mut receivers[..], 0);
+        let mut desks = Vec::with_capacity(companies.len());
+        for company in companies {
+            let runs = &runs[company];
+            let count = count(runs);
+            desks.push((
+                runs,
+                first,
+                order_left.split_off_mut(..count).unwrap_or_default(),
+                receivers_left.split_off_mut(..count).unwrap_or_default(),
+            ));
+            first += count as u32;
+        }
+        let groups = desks
+            .into_par_iter()
+            .map(|(runs, first, order, receivers)| {
+                let members = runs.iter().flat_map(|r| r.first..r.first + r.count);
+                for ((into, receiver), i) in order.iter_mut().zip(receivers.iter_mut()).zip(members) {
+                    *into = i;
+                    let place = points.position[i as usize] + Vec3::ZERO;
+                    let [x, y, z] = place.to_array().map(f32::to_bits);
+                    *receiver = [x, y, z, words[i as usize]];
+                }
+                group(planes, points, first, receivers, order)
             })
             .collect();
-        let group = |range: Range<usize>| group(planes, points, &words, (&order, range));
-        let groups = ranges.into_par_iter().map(group).collect();
         Self { words, order, receivers, groups }
     }
 }
@@ -80,20 +104,26 @@ impl Prepared {
 /// Of every slot, seen from its front and from its back: the light's height over a plane is the same
 /// from all of the plane.
 fn elevations(surfaces: &Surfaces, planes: &Planes, light: &AreaLight) -> Vec<[Elevation; 2]> {
+    let aim = Aim::new(light, &Receiver::in_air(DVec3::ZERO));
     let of = |slot: usize| {
         let Some(normal) = planes.normal(slot) else { return [Elevation::Below; 2] };
         let position = surfaces.corners[slot][0].as_dvec3();
-        if let AreaLight::Sphere { centre, radius_world } = *light {
-            let (height, radius) = (normal.dot(centre.as_dvec3() - position), f64::from(radius_world));
-            return [height, -height].map(|h| match (h > radius, h > -radius) {
-                (true, _) => Elevation::Above,
-                (false, true) => Elevation::Across,
-                (false, false) => Elevation::Below,
-            });
-        }
-        match Aim::new(light, &Receiver { position, normal, slot: None }) {
-            Some(aim) => [normal, -normal].map(|n| aim.elevation(n)),
-            None => [Elevation::Across; 2],
+        match (*light, aim) {
+            (AreaLight::Sphere { centre, radius_world }, _) => {
+                let (height, radius) = (normal.dot(centre.as_dvec3() - position), f64::from(radius_world));
+                [height, -height].map(|h| match (h > radius, h > -radius) {
+                    (true, _) => Elevation::Above,
+                    (false, true) => Elevation::Across,
+                    (false, false) => Elevation::Below,
+                })
+            }
+            (AreaLight::Sun { .. }, Some(aim)) => [normal, -normal].map(|n| aim.elevation(n)),
+            // A flat light's axis begins where it is seen from.
+            (_, Some(aim)) => {
+                let aim = Aim { axis: aim.axis - position, ..aim };
+                [normal, -normal].map(|n| aim.elevation(n))
+            }
+            (_, None) => [Elevation::Across; 2],
         }
     };
     (0..surfaces.corners.len()).into_par_iter().with_min_len(1024).map(of).collect()
@@ -122,32 +152,30 @@ fn word(
     }
 }
 
-fn group(planes: &Planes, points: &Points, words: &[u32], (order, range): (&[u32], Range<usize>)) -> Group {
+fn group(planes: &Planes, points: &Points, first: u32, receivers: &[[u32; 4]], order: &[u32]) -> Group {
     let mut low = Vec3::INFINITY;
     let mut high = Vec3::NEG_INFINITY;
-    let plane = |i: u32| {
-        let word = words[i as usize];
+    let plane = |word: u32| {
         let normal = planes.normal((word & IN_AIR) as usize).unwrap_or_default();
         if word & BACK == 0 { normal } else { -normal }
     };
-    let mut normal = plane(order[range.start]);
-    let mut last = words[order[range.start] as usize];
-    for &i in &order[range.clone()] {
-        low = low.min(points.position[i as usize]);
-        high = high.max(points.position[i as usize]);
-        let word = words[i as usize];
-        if word != last {
-            last = word;
-            if plane(i) != normal {
+    let mut last = receivers[0][3];
+    let mut normal = plane(last);
+    for (receiver, &i) in receivers.iter().zip(order) {
+        let place = points.position[i as usize];
+        (low, high) = (low.min(place), high.max(place));
+        if receiver[3] != last {
+            last = receiver[3];
+            if plane(last) != normal {
                 normal = DVec3::ZERO;
             }
         }
     }
     Group {
         low: low.to_array(),
-        first: range.start as u32,
+        first,
         high: high.to_array(),
-        count: range.len() as u32,
+        count: order.len() as u32,
         normal: normal.as_vec3().to_array(),
         unused: 0,
     }
@@ -157,48 +185,39 @@ fn group(planes: &Planes, points: &Points, words: &[u32], (order, range): (&[u32
 /// eighth of the points to sort.
 #[derive(Clone, Copy)]
 struct Run {
+    /// Where the first lies, on the Morton curve through the scene.
     key: u64,
-    /// Among the GPU's points.
     first: u32,
     count: u32,
 }
 
-/// The GPU's points in an order in which neighbours stand together, and the sizes of groups.
-fn neighbours(points: &Points, words: &[u32]) -> (Vec<u32>, Vec<usize>) {
-    let live: Vec<u32> =
-        (0..points.len() as u32).into_par_iter().filter(|&i| words[i as usize] < OTHER).collect();
-    let (low, high) = live
-        .par_iter()
-        .map(|&i| (points.position[i as usize], points.position[i as usize]))
-        .reduce(|| (Vec3::INFINITY, Vec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
-    let scale = 2_097_151.0 / (high - low).max_element().max(f32::MIN_POSITIVE);
-    let key = |i: u32| {
-        let place = (points.position[i as usize] - low) * scale;
-        let [x, y, z] = place.to_array().map(|c| spread(c as u64));
+/// Runs of the GPU's points among some that begin at an index.
+fn runs(points: &Points, words: &[u32], (start, extent): (usize, f32)) -> Vec<Run> {
+    let scale = 1_048_575.0 / extent.max(f32::MIN_POSITIVE);
+    let key = |place: Vec3| {
+        // Casts cut what is outside of the scene.
+        let [x, y, z] = ((place + extent) * scale).to_array().map(|c| spread((c as u64).min(0x1f_ffff)));
         x | y << 1 | z << 2
     };
-    let mut runs: Vec<Run> = live
-        .par_chunks(4096)
-        .enumerate()
-        .flat_map_iter(|(chunk, live)| runs(live, (chunk * 4096) as u32, key))
-        .collect();
-    runs.par_sort_unstable_by_key(|run| (run.key, run.first));
-    let groups = split(&runs);
-    let members = |group: &Range<usize>| {
-        runs[group.clone()].iter().flat_map(|r| &live[r.first as usize..(r.first + r.count) as usize])
-    };
-    let order = groups.par_iter().flat_map_iter(|group| members(group).copied()).collect();
-    let sizes = groups.iter().map(|group| count(&runs[group.clone()])).collect();
-    (order, sizes)
-}
-
-fn runs(live: &[u32], offset: u32, key: impl Fn(u32) -> u64) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::with_capacity(live.len() / 4);
-    for (at, &i) in live.iter().enumerate() {
-        let key = key(i);
-        match runs.last_mut() {
-            Some(run) if (run.count as usize) < RUN && run.key >> NEAR == key >> NEAR => run.count += 1,
-            _ => runs.push(Run { key, first: offset + at as u32, count: 1 }),
+    let near = extent * NEAR;
+    let mut runs: Vec<Run> = Vec::with_capacity(words.len() / 4);
+    let mut open: Option<Vec3> = None;
+    for (&word, i) in words.iter().zip(start..) {
+        if word >= OTHER {
+            open = None;
+            continue;
+        }
+        let place = points.position[i];
+        match (open, runs.last_mut()) {
+            (Some(first), Some(run))
+                if (run.count as usize) < RUN && (place - first).abs().max_element() < near =>
+            {
+                run.count += 1;
+            }
+            _ => {
+                runs.push(Run { key: key(place), first: i as u32, count: 1 });
+                open = Some(place);
+            }
         }
     }
     runs

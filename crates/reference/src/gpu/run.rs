@@ -62,7 +62,7 @@ impl GpuTracer<'_> {
                 self.batch(&task, &compiled, count, (times.as_ref(), &mut passes))?;
             }
             let mut encoder = device.device.create_command_encoder(&Default::default());
-            let bytes = self.buffers.staging.size();
+            let bytes = 16 * prepared.words.len() as u64;
             encoder.copy_buffer_to_buffer(&self.buffers.results, 0, &self.buffers.staging, 0, bytes);
             let count = 2 * passes.len() as u32;
             let times = times.as_ref().filter(|_| count <= MOST_TIMES);
