@@ -62,6 +62,26 @@ pub(crate) struct GpuArgs {
     pub(crate) backend: Option<String>,
 }
 
+/// Where truth is found.
+#[derive(Args, Debug, Clone, Copy)]
+pub(crate) struct TruthArgs {
+    /// Where truth is found. The GPU's V (scanlines alone) differs from the CPU's where a silhouette passes
+    /// within rounding of a sample; irradiance is the CPU's.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) reference_on: ReferenceOn,
+}
+
+#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum ReferenceOn {
+    /// The adapter that renders, software too.
+    Gpu,
+    /// All cores.
+    Cpu,
+    /// A GPU where there is one, but never a software adapter.
+    #[default]
+    Auto,
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct EvaluateArgs {
     /// A suite file, scene names, scene folders or model files; the standard suite otherwise.
@@ -122,6 +142,8 @@ pub(crate) struct EvaluateArgs {
     /// Where the report's pictures go: `file` (into the page) or `dir` (beside it).
     #[arg(long, value_enum, default_value_t)]
     pub(crate) report: ReportKind,
+    #[command(flatten)]
+    pub(crate) truth: TruthArgs,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
 }
@@ -237,6 +259,8 @@ pub(crate) struct ClaimsArgs {
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
+    pub(crate) truth: TruthArgs,
+    #[command(flatten)]
     pub(crate) gpu: GpuArgs,
 }
 
@@ -266,6 +290,8 @@ pub(crate) struct ReferenceArgs {
     /// The EXR file.
     #[arg(long, value_name = "FILE", default_value = "reference.exr")]
     pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) truth: TruthArgs,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
 }

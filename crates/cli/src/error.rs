@@ -5,7 +5,7 @@ use umbrage_metrics::MetricsError;
 use umbrage_reference::ReferenceError;
 use umbrage_report::ReportError;
 use umbrage_scene::SceneError;
-use umbrage_shadows::ShadowError;
+use umbrage_shadows::{DeviceError, ShadowError};
 
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CliError {
@@ -44,8 +44,11 @@ impl CliError {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Usage(_)
+            | Self::Reference(ReferenceError::Device(DeviceError::UnknownBackend { .. }))
             | Self::Scene(SceneError::UnknownName { .. })
-            | Self::Shadow(ShadowError::UnknownBackend { .. } | ShadowError::WrongLight { .. }) => 2,
+            | Self::Shadow(
+                ShadowError::Device(DeviceError::UnknownBackend { .. }) | ShadowError::WrongLight { .. },
+            ) => 2,
             Self::Regressed(_) => 1,
             Self::NothingScored(_) | Self::Report(ReportError::NotComparable(_)) => 3,
             Self::NoBaseline { .. } => 5,
@@ -67,6 +70,9 @@ impl CliError {
             Self::NoBaseline { name, .. } => Some(format!(
                 "`umbrage evaluate --save-baseline {name}` makes one; baselines of other adapters do not count"
             )),
+            Self::Reference(ReferenceError::Device(_)) => {
+                Some("`--reference-on cpu` finds the same truth without a GPU".into())
+            }
             Self::NothingScored(_) => {
                 Some("look at the pictures of the report; check the camera path and the light".into())
             }

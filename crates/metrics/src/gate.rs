@@ -45,7 +45,8 @@ impl Margin {
             PooledNumber::Cell(Quantity::Error) => [2e-4, 0.01],
             PooledNumber::Cell(Quantity::Banding) => [2e-6, 0.02],
             PooledNumber::Cell(Quantity::Swimming) => [5e-6, 0.1],
-            PooledNumber::Cell(Quantity::Noise) | PooledNumber::BlockNoise => [5e-6, 0.05],
+            PooledNumber::Cell(Quantity::Noise) => [5e-6, 0.05],
+            PooledNumber::BlockNoise => [5e-7, 0.05],
             PooledNumber::Cell(Quantity::LightLeak | Quantity::FalseShadow) => [2e-4, 0.02],
             _ => [0.01, 0.0],
         };

@@ -1,8 +1,8 @@
 //! Seconds that truth takes, alone or in turns with another program.
 //!
 //! `cargo bench -p umbrage-reference --bench truth -- CASE [--models DIR] [--size WxH] [--samples N]
-//! [--rounds N] [--method NAME]... [--export FILE] [--serve] [--rays FILE]`. Without `--models` there is
-//! only the case `colonnade`. `--export` writes the triangles, the receivers and the light for
+//! [--rounds N] [--method NAME]... [--on cpu|gpu [--adapter NAME]] [--export FILE] [--serve] [--rays FILE]`. Without
+//! `--models` there is only the case `colonnade`. `--export` writes the triangles, the receivers and the light for
 //! `tests/peers/embree`; `--serve` waits for a line on standard input before each round, so that a
 //! script can let two programs take turns; `--rays` says what given rays hit, for the same folder.
 #![expect(clippy::print_stdout, reason = "a program, not a library")]
@@ -14,7 +14,9 @@ use std::io::{BufRead, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use umbrage_frame::View;
-use umbrage_reference::{Method, Points, Tracer, TruthSettings};
+use umbrage_reference::{
+    AdapterChoice, GpuTracer, GroundTruth, Method, Points, Tracer, TruthGpu, TruthSettings,
+};
 use umbrage_scene::{AreaLight, Camera, Scene};
 
 const CASES: [&str; 10] = [
@@ -37,6 +39,8 @@ struct Options {
     samples: u32,
     rounds: usize,
     methods: Vec<Method>,
+    on_gpu: bool,
+    adapter: Option<String>,
     export: Option<PathBuf>,
     serve: bool,
     rays: Option<PathBuf>,
@@ -74,34 +78,98 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         return Ok(());
     }
+    if options.on_gpu {
+        return on_gpu(&options, (&tracer, &points, &light), &settings(Method::Scanlines));
+    }
     for method in &options.methods {
-        let mut seconds = Vec::new();
-        let mut found = None;
-        for _ in 0..options.rounds {
-            let (truth, took) = timed(|| tracer.truth(&points, &light, &settings(*method)));
-            seconds.push(took);
-            found = Some(truth);
-        }
-        seconds.sort_by(f64::total_cmp);
-        let truth = found.ok_or("no round")?;
-        let share = |f: &dyn Fn(f32) -> bool| {
-            truth.mean.iter().filter(|&&m| f(m)).count() as f64 / truth.mean.len() as f64
-        };
-        let mean = truth.mean.iter().map(|&m| f64::from(m)).sum::<f64>() / truth.mean.len() as f64;
-        let error =
-            (truth.variance.iter().map(|&v| f64::from(v)).sum::<f64>() / truth.mean.len() as f64).sqrt();
-        let median = seconds[seconds.len() / 2];
-        println!(
-            "{method:?} x {}: {median:.3} s ({:.3} to {:.3}), {:.1} Msamples/s; V {mean:.6}, standard error {error:.5} (RMS); {:.3} lit, {:.3} hidden",
-            truth.samples[0],
-            seconds[0],
-            seconds[seconds.len() - 1],
-            points.len() as f64 * f64::from(truth.samples[0]) / median / 1e6,
-            share(&|m| m == 1.0),
-            share(&|m| m == 0.0),
-        );
+        let find = || Ok(tracer.truth(&points, &light, &settings(*method)));
+        tell(&format!("{method:?}"), rounds(options.rounds, find)?);
     }
     Ok(())
+}
+
+fn on_gpu(
+    options: &Options,
+    (tracer, points, light): (&Tracer, &Points, &AreaLight),
+    settings: &TruthSettings,
+) -> Result<(), Box<dyn Error>> {
+    let choice = AdapterChoice { name: options.adapter.clone(), backend: None };
+    let gpu = TruthGpu::open(&choice)?;
+    let adapter = gpu.description().clone();
+    let software = adapter.is_software();
+    println!("on {} ({}, {}, {})", adapter.name, adapter.device_type, adapter.backend, adapter.driver);
+    let (found, seconds) = timed(|| GpuTracer::new(tracer, &gpu));
+    let mut found = found?;
+    println!("scene uploaded in {seconds:.4} s");
+    let (first, seconds) = timed(|| found.truth(points, light, settings));
+    first?;
+    println!("first frame, with the compilation of its kernels: {seconds:.3} s");
+    let mut kernels = Vec::new();
+    let find = || {
+        let truth = found.truth(points, light, settings)?;
+        kernels.push(found.share().kernels);
+        Ok(truth)
+    };
+    tell("Scanlines on the GPU", rounds(options.rounds, find)?);
+    let share = found.share();
+    let of = |n: usize| n as f64 / points.len() as f64;
+    println!(
+        "{:.4} looked at, {:.4} below their horizon, {:.5} on the CPU",
+        of(share.gpu),
+        of(share.below),
+        of(share.cpu)
+    );
+    let timed: Option<Vec<_>> = kernels.into_iter().collect();
+    let Some(mut timed) = timed else {
+        println!("no timestamps: GPU time unknown");
+        return Ok(());
+    };
+    timed.sort_by(|a, b| (a.walk + a.look).total_cmp(&(b.walk + b.look)));
+    let all = |k: &umbrage_reference::KernelSeconds| 1e3 * (k.walk + k.look);
+    let median = timed[timed.len() / 2];
+    println!(
+        "{}: {:.3} ms ({:.3} to {:.3}): walk {:.3}, look {:.3}",
+        if software { "timestamps of a software adapter, no GPU cost" } else { "GPU time" },
+        all(&median),
+        all(&timed[0]),
+        all(&timed[timed.len() - 1]),
+        1e3 * median.walk,
+        1e3 * median.look
+    );
+    Ok(())
+}
+
+/// The last result, and the seconds of all rounds in order of size.
+fn rounds(
+    count: usize,
+    mut find: impl FnMut() -> Result<GroundTruth, Box<dyn Error>>,
+) -> Result<(GroundTruth, Vec<f64>), Box<dyn Error>> {
+    let mut seconds = Vec::new();
+    let mut found = None;
+    for _ in 0..count {
+        let (truth, took) = timed(&mut find);
+        seconds.push(took);
+        found = Some(truth?);
+    }
+    seconds.sort_by(f64::total_cmp);
+    Ok((found.ok_or("no round")?, seconds))
+}
+
+fn tell(what: &str, (truth, seconds): (GroundTruth, Vec<f64>)) {
+    let points = truth.mean.len() as f64;
+    let share = |f: &dyn Fn(f32) -> bool| truth.mean.iter().filter(|&&m| f(m)).count() as f64 / points;
+    let mean = truth.mean.iter().map(|&m| f64::from(m)).sum::<f64>() / points;
+    let error = (truth.variance.iter().map(|&v| f64::from(v)).sum::<f64>() / points).sqrt();
+    let median = seconds[seconds.len() / 2];
+    let samples = truth.samples.first().copied().unwrap_or_default();
+    println!(
+        "{what} x {samples}: {median:.4} s ({:.4} to {:.4}), {:.1} Msamples/s; V {mean:.6}, standard error {error:.5} (RMS); {:.3} lit, {:.3} hidden",
+        seconds[0],
+        seconds[seconds.len() - 1],
+        points * f64::from(samples) / median / 1e6,
+        share(&|m| m == 1.0),
+        share(&|m| m == 0.0),
+    );
 }
 
 fn options() -> Result<Options, Box<dyn Error>> {
@@ -112,6 +180,8 @@ fn options() -> Result<Options, Box<dyn Error>> {
         samples: 1024,
         rounds: 1,
         methods: Vec::new(),
+        on_gpu: false,
+        adapter: None,
         export: None,
         serve: false,
         rays: None,
@@ -136,6 +206,12 @@ fn options() -> Result<Options, Box<dyn Error>> {
                 "scanline-rays" => Method::ScanlineRays,
                 other => return Err(format!("no method {other}").into()),
             }),
+            "--on" => match value()?.as_str() {
+                "cpu" => options.on_gpu = false,
+                "gpu" => options.on_gpu = true,
+                other => return Err(format!("--on {other}: cpu or gpu").into()),
+            },
+            "--adapter" => options.adapter = Some(value()?),
             "--export" => options.export = Some(value()?.into()),
             "--serve" => options.serve = true,
             "--rays" => options.rays = Some(value()?.into()),

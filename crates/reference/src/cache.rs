@@ -14,6 +14,7 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use umbrage_device::AdapterDescription;
 use umbrage_scene::AreaLight;
 
 /// A folder of ground truth that may be shared by processes.
@@ -25,6 +26,19 @@ pub struct Cache {
 /// The content that a truth follows from: scene, points, light, settings and tool version.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TruthKey([u8; 32]);
+
+impl TruthKey {
+    /// Of the same truth found on a GPU: adapter and driver are a part of its content.
+    pub(crate) fn on(self, adapter: &AdapterDescription) -> Self {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(&self.0);
+        for part in [&adapter.name, &adapter.driver, &adapter.backend] {
+            hasher.update(&(part.len() as u64).to_le_bytes());
+            hasher.update(part.as_bytes());
+        }
+        Self(*hasher.finalize().as_bytes())
+    }
+}
 
 impl fmt::Display for TruthKey {
     /// 64 hexadecimal digits.
@@ -92,6 +106,18 @@ impl Cache {
         key: TruthKey,
         compute: impl FnOnce() -> GroundTruth,
     ) -> Result<(GroundTruth, Source), ReferenceError> {
+        self.try_truth(key, || Ok(compute()))
+    }
+
+    /// As [`Cache::truth`], of what may fail to be computed.
+    ///
+    /// # Errors
+    /// When an entry exists that cannot be read, and those of `compute`.
+    pub fn try_truth(
+        &self,
+        key: TruthKey,
+        compute: impl FnOnce() -> Result<GroundTruth, ReferenceError>,
+    ) -> Result<(GroundTruth, Source), ReferenceError> {
         let path = self.path(key);
         let source = match fs::read(&path) {
             Ok(bytes) => match entry::decode(&bytes) {
@@ -101,7 +127,7 @@ impl Cache {
             Err(error) if error.kind() == ErrorKind::NotFound => Source::Computed,
             Err(source) => return Err(ReferenceError::Cache { path, source }),
         };
-        let truth = compute();
+        let truth = compute()?;
         match self.store(&path, &entry::encode(&truth)) {
             Ok(()) => Ok((truth, source)),
             Err(error) => Ok((truth, Source::NotStored(error))),

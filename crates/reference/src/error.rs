@@ -20,6 +20,9 @@ pub enum ReferenceError {
     /// A triangle names a material that does not exist, or has none.
     #[error("triangle {0} names a material that does not exist")]
     NoSuchMaterial(usize),
+    /// The GPU that truth was asked of.
+    #[error("truth on the GPU: {0}")]
+    Device(#[from] umbrage_device::DeviceError),
     /// The cache folder or a file in it cannot be used.
     #[error("the cache of ground truth at {path} cannot be used: {source}")]
     Cache {

@@ -11,6 +11,8 @@
 mod aim;
 mod cache;
 mod error;
+mod finder;
+mod gpu;
 mod irradiance;
 mod owen;
 mod primary;
@@ -27,9 +29,12 @@ mod truth;
 
 pub use cache::{Cache, Source, TruthKey};
 pub use error::ReferenceError;
+pub use finder::Finder;
+pub use gpu::{GpuTracer, KernelSeconds, Share, TruthGpu};
 pub use irradiance::Irradiance;
 pub use primary::{Points, PrimaryHits};
 pub use radiance::RadianceSettings;
 pub use refine::Reached;
 pub use tracer::Tracer;
 pub use truth::{GroundTruth, MOST_ON_SCANLINES, Method, TruthSettings};
+pub use umbrage_device::{AdapterChoice, AdapterDescription, DeviceError, adapters};

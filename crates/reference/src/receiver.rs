@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 /// ulp (2^-24 of its coordinates) for itself and for each of the three vertices that span the
 /// plane: 2^-22 in all. A real blocker 1e-5 m away stays above that up to 40 m from the origin (at
 /// any distance when the plane is parallel to an axis).
-const COPLANAR: f64 = 1.0 / (1 << 22) as f64;
+pub(crate) const COPLANAR: f64 = 1.0 / (1 << 22) as f64;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Receiver {

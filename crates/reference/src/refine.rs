@@ -6,8 +6,7 @@
 
 use crate::owen::mix;
 use crate::truth::MOST_ON_SCANLINES;
-use crate::{GroundTruth, Points, Tracer, TruthSettings};
-use umbrage_scene::AreaLight;
+use crate::{GroundTruth, Points, TruthSettings};
 
 /// Samples a half of the pilot, at most.
 const PILOT: u32 = 128;
@@ -51,40 +50,38 @@ impl GroundTruth {
     }
 }
 
-impl Tracer {
-    /// The truth with as many samples as each point needs.
-    pub(crate) fn refined(
-        &self,
-        points: &Points,
-        light: &AreaLight,
-        settings: &TruthSettings,
-        tolerance: f32,
-    ) -> GroundTruth {
-        let most = if settings.method.on_scanlines() { MOST_ON_SCANLINES } else { MOST_ON_POINTS };
-        let least = settings.samples.min(most);
-        let pilot = TruthSettings {
-            samples: least.min(PILOT),
-            basis_samples: 0,
-            seed: mix(settings.seed ^ APART),
-            ..*settings
-        };
-        let spread = self.equal(points, light, &pilot);
-        let mut groups: Vec<Vec<u32>> = Vec::new();
-        for (index, variance) in spread.variance.iter().enumerate() {
-            let step = steps(f64::from(*variance).sqrt(), f64::from(tolerance), [pilot.samples, least, most]);
-            if groups.len() <= step {
-                groups.resize(step + 1, Vec::new());
-            }
-            groups[step].push(index as u32);
+/// The truth with as many samples as each point needs, from one that finds it with the same number for
+/// all.
+pub(crate) fn refined<E>(
+    points: &Points,
+    settings: &TruthSettings,
+    tolerance: f32,
+    mut equal: impl FnMut(&Points, &TruthSettings) -> Result<GroundTruth, E>,
+) -> Result<GroundTruth, E> {
+    let most = if settings.method.on_scanlines() { MOST_ON_SCANLINES } else { MOST_ON_POINTS };
+    let least = settings.samples.min(most);
+    let pilot = TruthSettings {
+        samples: least.min(PILOT),
+        basis_samples: 0,
+        seed: mix(settings.seed ^ APART),
+        ..*settings
+    };
+    let spread = equal(points, &pilot)?;
+    let mut groups: Vec<Vec<u32>> = Vec::new();
+    for (index, variance) in spread.variance.iter().enumerate() {
+        let step = steps(f64::from(*variance).sqrt(), f64::from(tolerance), [pilot.samples, least, most]);
+        if groups.len() <= step {
+            groups.resize(step + 1, Vec::new());
         }
-        let mut all = GroundTruth::sized(points.len(), settings.basis_samples > 0);
-        for (step, group) in groups.iter().enumerate().filter(|(_, group)| !group.is_empty()) {
-            let samples = least.saturating_mul(4u32.saturating_pow(step as u32)).min(most);
-            let found = self.equal(&points.pick(group), light, &TruthSettings { samples, ..*settings });
-            all.put(group, &found);
-        }
-        all
+        groups[step].push(index as u32);
     }
+    let mut all = GroundTruth::sized(points.len(), settings.basis_samples > 0);
+    for (step, group) in groups.iter().enumerate().filter(|(_, group)| !group.is_empty()) {
+        let samples = least.saturating_mul(4u32.saturating_pow(step as u32)).min(most);
+        let found = equal(&points.pick(group), &TruthSettings { samples, ..*settings })?;
+        all.put(group, &found);
+    }
+    Ok(all)
 }
 
 /// How many times four times as many samples are wanted.
@@ -100,7 +97,17 @@ fn steps(error: f64, tolerance: f64, [pilot, least, most]: [u32; 3]) -> usize {
 }
 
 impl Points {
-    fn pick(&self, group: &[u32]) -> Self {
+    /// Some that follow each other.
+    pub(crate) fn range(&self, range: std::ops::Range<usize>) -> Self {
+        Self {
+            position: self.position[range.clone()].to_vec(),
+            normal: self.normal[range.clone()].to_vec(),
+            triangle: self.triangle[range].to_vec(),
+        }
+    }
+
+    /// Some by their indices.
+    pub(crate) fn pick(&self, group: &[u32]) -> Self {
         let at = |i: &u32| *i as usize;
         Self {
             position: group.iter().map(|i| self.position[at(i)]).collect(),
@@ -111,7 +118,8 @@ impl Points {
 }
 
 impl GroundTruth {
-    fn sized(points: usize, basis: bool) -> Self {
+    /// Zeros.
+    pub(crate) fn sized(points: usize, basis: bool) -> Self {
         let zeros = || vec![0.0; points];
         Self {
             mean: zeros(),
@@ -123,7 +131,8 @@ impl GroundTruth {
         }
     }
 
-    fn put(&mut self, group: &[u32], found: &Self) {
+    /// Some points by their indices.
+    pub(crate) fn put(&mut self, group: &[u32], found: &Self) {
         for (i, &at) in group.iter().enumerate() {
             let at = at as usize;
             self.mean[at] = found.mean[i];

@@ -3,10 +3,12 @@
 use crate::aim::{Aim, Elevation};
 use crate::owen::LONGEST;
 use crate::receiver::Receiver;
+use crate::refine::refined;
 use crate::samples::{LANES, Layout, LightSamples, light_seed, seed};
 use crate::{Points, Tracer, rays, scanlines, shafts};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::convert::Infallible;
 use umbrage_scene::AreaLight;
 
 /// How the truth is found.
@@ -132,7 +134,11 @@ impl Tracer {
     pub fn truth(&self, points: &Points, light: &AreaLight, settings: &TruthSettings) -> GroundTruth {
         points.check();
         match settings.tolerance {
-            Some(tolerance) => self.refined(points, light, settings, tolerance),
+            Some(tolerance) => {
+                let equal = |p: &Points, s: &TruthSettings| Ok::<_, Infallible>(self.equal(p, light, s));
+                let Ok(truth) = refined(points, settings, tolerance, equal);
+                truth
+            }
             None => self.equal(points, light, settings),
         }
     }
@@ -152,16 +158,23 @@ impl Tracer {
                 .collect()
         };
         let samples = match lines {
-            true => scanlines::samples(&task),
+            true => scanlines::samples(settings, light),
             false => (layout.replicates * layout.per_replicate) as u32,
         };
+        GroundTruth::of(&each, settings, samples)
+    }
+}
+
+impl GroundTruth {
+    /// Of points that all have so many samples.
+    pub(crate) fn of(each: &[PointTruth], settings: &TruthSettings, samples: u32) -> Self {
         let list = |pick: fn(&PointTruth) -> f32| each.iter().map(pick).collect::<Vec<f32>>();
-        GroundTruth {
+        Self {
             mean: list(|p| p.mean),
             halves: [list(|p| p.halves[0]), list(|p| p.halves[1])],
-            basis: if layout.basis > 0 { list(|p| p.basis) } else { Vec::new() },
+            basis: if settings.basis_samples > 0 { list(|p| p.basis) } else { Vec::new() },
             variance: list(|p| p.variance),
-            samples: vec![samples; points.len()],
+            samples: vec![samples; each.len()],
             facing: each.iter().map(|p| p.facing).collect(),
         }
     }

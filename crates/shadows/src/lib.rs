@@ -20,7 +20,7 @@ mod techniques;
 
 pub use calibration::{Bias, ConstantBias, ReceiverPlane};
 pub use error::ShadowError;
-pub use gpu::{AdapterChoice, AdapterDescription, Gpu, Timing, adapters};
+pub use gpu::{Gpu, Timing};
 pub use kernels::Kernels;
 pub use layout::Globals;
 pub use light_map::{LightKind, LightMap};
@@ -32,3 +32,4 @@ pub use technique::{
     select_variants,
 };
 pub use techniques::{PROBES, VARIANTS};
+pub use umbrage_device::{AdapterChoice, AdapterDescription, DeviceError, adapters};

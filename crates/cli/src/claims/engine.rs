@@ -17,12 +17,14 @@ use crate::suite::Sampling;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use umbrage_frame::Image;
-use umbrage_reference::{Cache, Tracer};
+use umbrage_reference::{Cache, Finder, Tracer, TruthGpu};
 use umbrage_scene::Scene;
 use umbrage_shadows::{Gpu, Renderer, VariantId};
 
 /// How everything is measured.
 pub(crate) struct Settings {
+    /// What finds truth, where it is not the CPU.
+    pub(crate) truth_gpu: Option<TruthGpu>,
     pub(crate) cache: PathBuf,
     /// Side of the map where a place says nothing else.
     pub(crate) map_texels: u32,
@@ -76,6 +78,7 @@ impl Run<'_> {
             Err(error) => return Err(error),
         };
         let tracer = Tracer::new(&scene)?;
+        let mut finder = Finder::new(&tracer, self.settings.truth_gpu.as_ref())?;
         let texels = places[0].map.unwrap_or(self.settings.map_texels);
         let mut renderer = Renderer::new(gpu, &scene, texels)?;
         for place in places {
@@ -84,7 +87,7 @@ impl Run<'_> {
                 self.refuse(place, &reason, &needs[*place]);
                 continue;
             }
-            self.place(place, &needs[*place], (&scene, &tracer, &mut renderer))?;
+            self.place(place, &needs[*place], (&scene, &mut finder, &mut renderer))?;
         }
         Ok(())
     }
@@ -99,7 +102,7 @@ impl Run<'_> {
         &mut self,
         place: &Place,
         variants: &BTreeMap<String, BTreeSet<Measure>>,
-        (scene, tracer, renderer): (&Scene, &Tracer, &mut Renderer<'_>),
+        (scene, finder, renderer): (&Scene, &mut Finder<'_>, &mut Renderer<'_>),
     ) -> Result<(), CliError> {
         interrupt::check(&self.settings.cache)?;
         self.progress.say(format!("{}: truth", place.label()));
@@ -111,7 +114,7 @@ impl Run<'_> {
         let reads_pixels = variants.values().flatten().any(Measure::reads_pixels);
         let readings = if reads_pixels { Readings::Both } else { Readings::Anchored };
         let request = Request { scene, path, first, frames, readings };
-        let window = Window::new(&request, (tracer, &self.truths, renderer), &self.settings.sampling)?;
+        let window = Window::new(&request, (finder, &self.truths, renderer), &self.settings.sampling)?;
         if window.disagreement() > DISAGREEMENT_LIMIT {
             self.refuse(place, "truth and raster see different surfaces", variants);
             return Ok(());

@@ -1,7 +1,7 @@
 //! `umbrage claims`: what the documents say, measured.
 
 use super::evaluate::command_line;
-use super::open_gpu;
+use super::{open_gpu, open_truth_gpu};
 use crate::args::ClaimsArgs;
 use crate::claims::{self, CostBook, Judge, Registry};
 use crate::clock::{self, Now};
@@ -30,8 +30,13 @@ pub(crate) fn run(args: &ClaimsArgs) -> Result<(), CliError> {
     eprintln!("adapter: {} ({})", gpu.description().name, gpu.description().device_type);
     std::fs::create_dir_all(&args.out).map_err(CliError::file(&args.out))?;
     let costs = costs(args, (&registry, &claims), (&mut gpu, &now))?;
-    let settings =
-        claims::Settings { cache: args.cache.clone(), map_texels: args.map, sampling: sampling(args) };
+    let truth_gpu = open_truth_gpu(args.truth.reference_on, &args.gpu)?;
+    let settings = claims::Settings {
+        truth_gpu,
+        cache: args.cache.clone(),
+        map_texels: args.map,
+        sampling: sampling(args),
+    };
     let needs = claims::needs(&claims, &registry)?;
     let measurements = claims::run(&needs, &settings, &mut gpu)?;
     let bootstrap = Bootstrap::default();

@@ -1,6 +1,6 @@
 //! `umbrage evaluate`: the main job.
 
-use super::{gate, open_gpu};
+use super::{gate, open_gpu, open_truth_gpu};
 use crate::args::{EvaluateArgs, ReportKind};
 use crate::clock;
 use crate::error::CliError;
@@ -19,7 +19,9 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     let mut gpu = open_gpu(&args.view.gpu)?;
     missing_baseline(args, &gpu)?;
     eprintln!("adapter: {} ({})", gpu.description().name, gpu.description().device_type);
+    let truth_gpu = open_truth_gpu(args.truth.reference_on, &args.view.gpu)?;
     let settings = Settings {
+        truth_gpu,
         cache: args.cache.clone(),
         out: out.clone(),
         map_texels: args.view.map,

@@ -8,9 +8,10 @@ mod reference;
 mod render;
 mod report;
 
-use crate::args::{Arguments, Command, GpuArgs};
+use crate::args::{Arguments, Command, GpuArgs, ReferenceOn};
 use crate::error::CliError;
 use std::process::ExitCode;
+use umbrage_reference::{DeviceError, ReferenceError, TruthGpu};
 use umbrage_shadows::{AdapterChoice, Gpu};
 
 /// Runs the command that was asked for.
@@ -30,6 +31,31 @@ pub(crate) fn dispatch(arguments: &Arguments) -> Result<ExitCode, CliError> {
 
 /// The adapter that the flags (or wgpu's own variables) name.
 fn open_gpu(wanted: &GpuArgs) -> Result<Gpu, CliError> {
-    let choice = AdapterChoice { name: wanted.adapter.clone(), backend: wanted.backend.clone() };
-    Ok(Gpu::new(&choice)?)
+    Ok(Gpu::new(&choice(wanted))?)
+}
+
+/// The device that finds truth, if one does; says which. Separate from the pipeline's: the witnesses
+/// share nothing but the card.
+fn open_truth_gpu(on: ReferenceOn, wanted: &GpuArgs) -> Result<Option<TruthGpu>, CliError> {
+    if on == ReferenceOn::Cpu {
+        return Ok(None);
+    }
+    let gpu = match (on, TruthGpu::open(&choice(wanted))) {
+        (ReferenceOn::Auto, Ok(gpu)) => Some(gpu).filter(|gpu| !gpu.description().is_software()),
+        // Whether what was asked for exists is not the machine's to say.
+        (ReferenceOn::Auto, Err(ReferenceError::Device(error @ DeviceError::UnknownBackend { .. }))) => {
+            return Err(ReferenceError::Device(error).into());
+        }
+        (ReferenceOn::Auto, Err(_)) => None,
+        (_, opened) => Some(opened?),
+    };
+    if let Some(adapter) = gpu.as_ref().map(TruthGpu::description) {
+        let note = if adapter.is_software() { "software: slower than --reference-on cpu" } else { "GPU" };
+        eprintln!("truth on: {} ({note})", adapter.name);
+    }
+    Ok(gpu)
+}
+
+fn choice(wanted: &GpuArgs) -> AdapterChoice {
+    AdapterChoice { name: wanted.adapter.clone(), backend: wanted.backend.clone() }
 }

@@ -1,16 +1,20 @@
 //! `umbrage reference`: ground truth of one frame to EXR.
 
-use crate::args::{MethodArg, ReferenceArgs};
+use super::open_truth_gpu;
+use crate::args::{MethodArg, ReferenceArgs, ReferenceOn};
 use crate::error::CliError;
 use crate::output::print;
 use crate::run::window::reached_note;
 use crate::scenes::find_scene;
 use crate::views::{frame_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
-use umbrage_reference::{MOST_ON_SCANLINES, Method, PrimaryHits, RadianceSettings, Tracer, TruthSettings};
+use umbrage_reference::{
+    Finder, MOST_ON_SCANLINES, Method, PrimaryHits, RadianceSettings, Tracer, TruthSettings,
+};
 
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     check_samples(args)?;
+    let on = wanted_place(args)?;
     let (scene, _) = find_scene(&args.scene)?;
     let path = path_of(&scene, &args.view.paths)?;
     let frame = frame_of(path, args.frame)?;
@@ -29,7 +33,8 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
         ..TruthSettings::default()
     };
     let points = hits.points();
-    let truth = tracer.truth(&points, &frame.light, &settings);
+    let gpu = open_truth_gpu(on, &args.view.gpu)?;
+    let truth = Finder::new(&tracer, gpu.as_ref())?.truth(&points, &frame.light, &settings)?;
     let irradiance = tracer.irradiance(&points, &frame.light, &settings);
     let mut layers = surfaces(&hits);
     let mut add = |name: &str, values: &[f32]| layers.push((name.to_string(), spread(&hits, values)));
@@ -53,6 +58,17 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     }
     write_exr(&args.out, &layers)?;
     print(&args.out.display().to_string())
+}
+
+/// Other methods are the CPU's.
+fn wanted_place(args: &ReferenceArgs) -> Result<ReferenceOn, CliError> {
+    match (args.truth.reference_on, args.method) {
+        (on, MethodArg::Scanlines) => Ok(on),
+        (ReferenceOn::Gpu, _) => {
+            Err(CliError::Usage("--reference-on gpu: a GPU does --method scanlines only".into()))
+        }
+        _ => Ok(ReferenceOn::Cpu),
+    }
 }
 
 /// What scanlines cannot hold is refused, not cut.

@@ -21,13 +21,15 @@ use cost::{CostOf, measure_cost};
 use measure::Measured;
 use std::path::PathBuf;
 use umbrage_metrics::Bootstrap;
-use umbrage_reference::{Cache, Tracer};
+use umbrage_reference::{Cache, Finder, Tracer, TruthGpu};
 use umbrage_report::{RunWriter, Scorecard, WindowPictures};
 use umbrage_shadows::{Bias, Gpu, Renderer};
 use window::Window;
 
 /// Where things go, and what is kept beside the report.
 pub(crate) struct Settings {
+    /// What finds truth, where it is not the CPU.
+    pub(crate) truth_gpu: Option<TruthGpu>,
     pub(crate) cache: PathBuf,
     pub(crate) out: PathBuf,
     pub(crate) map_texels: u32,
@@ -156,6 +158,7 @@ impl Run<'_> {
             self.progress.note(&format!("{}: {note}", scene.name));
         }
         let tracer = Tracer::new(scene)?;
+        let mut finder = Finder::new(&tracer, self.settings.truth_gpu.as_ref())?;
         let software = gpu.description().is_software();
         let adapter_key = format!("{:?} {}", gpu.description(), self.program);
         let mut renderer = Renderer::new(gpu, scene, self.settings.map_texels)?;
@@ -175,7 +178,7 @@ impl Run<'_> {
                 let request =
                     window::Request { scene, path, first, frames, readings: window::Readings::Both };
                 let window =
-                    Window::new(&request, (&tracer, &self.cache, &mut renderer), &self.plan.sampling)?;
+                    Window::new(&request, (&mut finder, &self.cache, &mut renderer), &self.plan.sampling)?;
                 self.progress.advance(1);
                 let refused = window.disagreement() > DISAGREEMENT_LIMIT;
                 let variants = if refused {

@@ -28,13 +28,20 @@ pub(super) fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provena
         truth: TruthCard {
             samples_per_half: plan.sampling.samples,
             basis_samples: plan.sampling.basis_samples,
-            method:
-                "scanlines: every triangle between point and light covers runs of samples on jittered lines"
-                    .into(),
+            method: format!(
+                "scanlines: every triangle between point and light covers runs of samples on jittered lines{}",
+                on(settings)
+            ),
         },
         scenes: plan.jobs.iter().map(|job| scene_card(&job.scene, settings.map_texels)).collect(),
         notes: notes(plan, settings),
     }
+}
+
+/// Where truth was found.
+fn on(settings: &Settings) -> String {
+    let gpu = settings.truth_gpu.as_ref().map(|gpu| gpu.description());
+    gpu.map(|a| format!(", on {} ({})", a.name, a.driver)).unwrap_or_default()
 }
 
 /// What rendered the variants.

@@ -7,7 +7,7 @@ use glam::Vec3;
 use std::time::Instant;
 use umbrage_frame::{AgreementLimits, Anchors, Image, View};
 use umbrage_metrics::{Coverage, PanelTruth, Region, TILE_PX, Tiling, counted};
-use umbrage_reference::{Cache, GroundTruth, Points, PrimaryHits, Reached, Source, Tracer, TruthSettings};
+use umbrage_reference::{Cache, Finder, GroundTruth, Points, PrimaryHits, Reached, Source, TruthSettings};
 use umbrage_scene::{AreaLight, CameraPath, PathFrame, Scene};
 use umbrage_shadows::{LightMap, Renderer};
 
@@ -81,7 +81,7 @@ impl Window {
     /// Finds anchors, truth, agreement and tiles.
     pub(crate) fn new(
         request: &Request<'_>,
-        (tracer, cache, renderer): (&Tracer, &Cache, &mut Renderer<'_>),
+        (finder, cache, renderer): (&mut Finder<'_>, &Cache, &mut Renderer<'_>),
         sampling: &Sampling,
     ) -> Result<Self, CliError> {
         let started = Instant::now();
@@ -90,9 +90,10 @@ impl Window {
         let numbers = request.first..request.first + frames.len() as u32;
         let pasts = numbers.map(|number| past_of(request.path, number, sampling.size)).collect();
         let (middle_view, middle_light) = frames[frames.len() / 2];
+        let tracer = finder.tracer();
         let hits = tracer.primary(&middle_view);
         let anchors = Anchors::of(&hits.gbuffer);
-        let mut truths = Truths { tracer, cache, computed: false, notes: Vec::new(), key: String::new() };
+        let mut truths = Truths { finder, cache, computed: false, notes: Vec::new(), key: String::new() };
         let (truth, facing) = truths.at_anchors(&hits.points(), &frames, sampling)?;
         let (mut agreements, mut witnesses) = (Vec::new(), Vec::new());
         for (index, (view, light)) in frames.iter().enumerate() {
@@ -222,24 +223,24 @@ impl Window {
 }
 
 /// Truth at anchors and at pixels, through the cache.
-struct Truths<'a> {
-    tracer: &'a Tracer,
+struct Truths<'a, 'b> {
+    finder: &'a mut Finder<'b>,
     cache: &'a Cache,
     computed: bool,
     notes: Vec<String>,
     key: String,
 }
 
-impl Truths<'_> {
+impl Truths<'_, '_> {
     fn get(
         &mut self,
         points: &Points,
         light: &AreaLight,
         settings: TruthSettings,
     ) -> Result<GroundTruth, CliError> {
-        let key = self.tracer.truth_key(points, light, &settings);
+        let key = self.finder.truth_key(points, light, &settings);
         self.key = format!("{}{key:?}", self.key);
-        let (truth, source) = self.cache.truth(key, || self.tracer.truth(points, light, &settings))?;
+        let (truth, source) = self.cache.try_truth(key, || self.finder.truth(points, light, &settings))?;
         match source {
             Source::Stored => {}
             Source::Computed => self.computed = true,
@@ -301,7 +302,7 @@ impl Truths<'_> {
         let mut halves = [Vec::with_capacity(count * frames.len()), Vec::with_capacity(count * frames.len())];
         let wanted: Vec<usize> = (0..count).filter(|&p| tiling.regions[p] == Region::Penumbra).collect();
         for (frame, (view, light)) in frames.iter().enumerate() {
-            let hits = self.tracer.primary(view);
+            let hits = self.finder.tracer().primary(view);
             let pixels = anchors.pixels_in(view);
             let seen: Vec<(usize, usize)> = wanted
                 .iter()

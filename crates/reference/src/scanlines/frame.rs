@@ -116,6 +116,11 @@ impl Frame {
 }
 
 impl Cone {
+    /// Angle, sine, tangent, and tangent per angle.
+    pub(crate) fn sizes(&self) -> [f32; 4] {
+        [self.angle, self.sin, self.tan, self.stretch]
+    }
+
     /// A row's place on the tangent plane, the cosine of its angle, and the square of the half width
     /// that the rim leaves of it: `y` is its angle in half angles of the cone.
     #[inline(always)]

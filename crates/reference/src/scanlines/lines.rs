@@ -23,7 +23,7 @@ pub(crate) const REPLICATES: usize = LANES;
 pub(crate) const RISE: usize = 2;
 /// The least step from row to row along a row, in distances between samples, and by how much it
 /// varies: about 1 minus the golden section's .618.
-const STEP: [f32; 2] = [0.29, 0.14];
+pub(crate) const STEP: [f32; 2] = [0.29, 0.14];
 /// Samples that fit in the mask of a row.
 const BITS: u32 = 32;
 
@@ -70,6 +70,12 @@ impl Ruling {
         }
         let per_row = ((wanted / rows as f64).ceil() as u32).clamp(1, BITS);
         Self { rows, per_row, round }
+    }
+
+    /// Rows without and with those that a rectangle's rise adds, and samples in each.
+    pub(crate) fn size(&self) -> [u32; 3] {
+        let extra = if self.round { 0 } else { RISE };
+        [self.rows as u32, (self.rows + extra) as u32, self.per_row]
     }
 
     /// Of all replicates.

@@ -24,14 +24,18 @@ use crate::truth::{MOST_ON_SCANLINES, Method, PointTruth, Scratch, Sight, Task};
 use crate::{Points, TruthSettings};
 use blocks::{Blocks, Survey};
 use eight::LANES;
-use frame::{Frame, Turn};
+pub(crate) use frame::Frame;
+use frame::Turn;
 use glam::Vec3;
-use lines::{Lines, REPLICATES, Ruling};
+use lines::{Lines, REPLICATES};
+pub(crate) use lines::{Ruling, STEP};
+pub(crate) use outline::{BEYOND, MARGIN};
 use outline::{Edge, Outline};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::ops::Range;
 use umbrage_scene::AreaLight;
+pub(crate) use volume::{bounds, sides};
 
 /// Receivers that share a list of candidates, at most.
 const TOGETHER: usize = 64;
@@ -85,17 +89,17 @@ fn in_order<T: Copy>((order, found): (Vec<u32>, Vec<Vec<T>>), none: T, points: &
 }
 
 /// Samples that the mean is made of at each point (on a round light on average).
-pub(crate) fn samples(task: &Task) -> u32 {
-    Rulings::new(task.settings, task.light).mean.samples() as u32
+pub(crate) fn samples(settings: &TruthSettings, light: &AreaLight) -> u32 {
+    Rulings::new(settings, light).mean.samples() as u32
 }
 
-struct Rulings {
-    mean: Ruling,
-    basis: Option<Ruling>,
+pub(crate) struct Rulings {
+    pub(crate) mean: Ruling,
+    pub(crate) basis: Option<Ruling>,
 }
 
 impl Rulings {
-    fn new(settings: &TruthSettings, light: &AreaLight) -> Self {
+    pub(crate) fn new(settings: &TruthSettings, light: &AreaLight) -> Self {
         let round = !matches!(light, AreaLight::Rect { .. });
         let most = 2 * MOST_ON_SCANLINES;
         let ruling = |samples: u32| Ruling::new(samples.min(most).div_ceil(REPLICATES as u32), round);
@@ -145,7 +149,7 @@ fn neighbours(points: &Points) -> (Vec<u32>, Vec<Range<usize>>) {
 }
 
 /// The lower 21 bits, two zeros between each.
-fn spread(word: u64) -> u64 {
+pub(crate) fn spread(word: u64) -> u64 {
     let mut w = word & 0x1f_ffff;
     w = (w | w << 32) & 0x001f_0000_0000_ffff;
     w = (w | w << 16) & 0x001f_0000_ff00_00ff;

@@ -9,10 +9,10 @@ use super::lines::{Lines, Row};
 
 /// Rounding of a place on the light, in half widths, that bounds are widened by: f32's 2^-24 times a
 /// handful of operations.
-pub(super) const MARGIN: f32 = 1e-4;
+pub(crate) const MARGIN: f32 = 1e-4;
 
 /// Half widths that lie off every row, a wide cone's too.
-pub(super) const BEYOND: f32 = 1e4;
+pub(crate) const BEYOND: f32 = 1e4;
 
 /// `a x + b y + c >= 0` inside.
 #[derive(Clone, Copy, Default)]

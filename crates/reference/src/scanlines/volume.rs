@@ -95,13 +95,18 @@ impl Volume {
 }
 
 /// The planes through the receiver that hold the light's outline, turned inwards.
-fn sides(aim: &Aim) -> impl Iterator<Item = DVec3> {
+pub(crate) fn sides(aim: &Aim) -> impl Iterator<Item = DVec3> {
     let (axis, u, v) = (aim.axis, aim.u, aim.v);
     [(axis + u, v), (axis - u, v), (axis + v, u), (axis - v, u)].into_iter().filter_map(move |(at, along)| {
         let normal = at.cross(along).normalize_or_zero();
         let height = normal.dot(axis);
         (height.abs() > 1e-9 * axis.length()).then(|| normal * height.signum())
     })
+}
+
+/// The box that a light ends in: infinite towards a sun.
+pub(crate) fn bounds(light: &AreaLight) -> [DVec3; 2] {
+    far_end(light).bounds()
 }
 
 /// What the volume ends at.

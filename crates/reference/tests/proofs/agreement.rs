@@ -6,7 +6,7 @@ use umbrage_reference::{GroundTruth, Method, Points, Tracer};
 use umbrage_scene::AreaLight;
 
 /// Four kinds of light, a few metres up.
-fn lights() -> [AreaLight; 4] {
+pub(crate) fn lights() -> [AreaLight; 4] {
     let direction = Vec3::new(0.4, 1.0, 0.3).normalize();
     [
         AreaLight::Sun { direction_to_light: direction, angular_diameter_radians: 0.08 },
@@ -24,7 +24,7 @@ fn both(tracer: &Tracer, points: &Points, light: &AreaLight, pair: [Method; 2]) 
 }
 
 /// Samples, of 256, that differ at each point.
-fn differences([rays, shafts]: &[GroundTruth; 2]) -> Vec<u32> {
+pub(crate) fn differences([rays, shafts]: &[GroundTruth; 2]) -> Vec<u32> {
     assert_eq!(rays.facing, shafts.facing);
     let samples = rays.samples[0] as f32;
     rays.mean.iter().zip(&shafts.mean).map(|(a, b)| ((a - b).abs() * samples).round() as u32).collect()
@@ -34,7 +34,7 @@ fn differences([rays, shafts]: &[GroundTruth; 2]) -> Vec<u32> {
 /// silhouette passes within about 2^-22 of it (of the light's width). A silhouette as long as the
 /// light sweeps 256 * 2^-21 samples: one in 8,000 points for each silhouette, and 4 samples at one
 /// point is beyond chance. A wrong sign, plane or candidate list gives tens of samples.
-fn assert_ties_only(what: &str, pair: &[GroundTruth; 2]) {
+pub(crate) fn assert_ties_only(what: &str, pair: &[GroundTruth; 2]) {
     let differing = differences(pair);
     let points = differing.len();
     let (count, worst) =
@@ -44,8 +44,8 @@ fn assert_ties_only(what: &str, pair: &[GroundTruth; 2]) {
     assert!(count <= points / 100 && worst <= 3, "{what}: {count} of {points} differ, by up to {worst}");
 }
 
-#[test]
-fn blocks_on_a_floor() {
+/// Forty blocks over a floor, and what a camera sees of them.
+pub(crate) fn blocks() -> (Tracer, Points) {
     let mut triangles = floor(20.0).to_vec();
     let mut random = Random(3);
     for _ in 0..40 {
@@ -54,9 +54,19 @@ fn blocks_on_a_floor() {
     }
     let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
     let points = tracer.primary(&view(Vec3::new(0.0, 3.0, 8.0), Vec3::ZERO, [96, 54])).points();
+    (tracer, points)
+}
+
+/// A sun that grazes a floor.
+pub(crate) fn low_sun() -> AreaLight {
     let grazing = Vec3::new(1.0, 0.05, 0.2).normalize();
-    let low = AreaLight::Sun { direction_to_light: grazing, angular_diameter_radians: 0.08 };
-    for light in lights().into_iter().chain([low]) {
+    AreaLight::Sun { direction_to_light: grazing, angular_diameter_radians: 0.08 }
+}
+
+#[test]
+fn blocks_on_a_floor() {
+    let (tracer, points) = blocks();
+    for light in lights().into_iter().chain([low_sun()]) {
         for pair in PAIRS {
             assert_ties_only(&format!("{pair:?} {light:?}"), &both(&tracer, &points, &light, pair));
         }
@@ -64,8 +74,7 @@ fn blocks_on_a_floor() {
 }
 
 /// Triangles everywhere, also behind the light and through it.
-#[test]
-fn triangle_soup() {
+pub(crate) fn large_soup() -> (Tracer, Points) {
     let mut random = Random(4);
     let triangles: Vec<[Vec3; 3]> = (0..600)
         .map(|_| {
@@ -75,6 +84,12 @@ fn triangle_soup() {
         .collect();
     let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
     let points = tracer.primary(&view(Vec3::new(0.0, 1.0, 12.0), Vec3::ZERO, [96, 54])).points();
+    (tracer, points)
+}
+
+#[test]
+fn triangle_soup() {
+    let (tracer, points) = large_soup();
     for light in lights() {
         for pair in PAIRS {
             assert_ties_only(&format!("{pair:?} {light:?}"), &both(&tracer, &points, &light, pair));
@@ -82,8 +97,34 @@ fn triangle_soup() {
     }
 }
 
-/// A thousand scenes at random: triangles of all sizes, receivers on them and in mid-air, in contact,
-/// grazing, behind the light; each soup with one light of each kind in turn. Ties are as in
+/// Triangles of all sizes, with receivers on them and in mid-air, in contact, grazing, behind the light.
+pub(crate) fn small_soup(random: &mut Random) -> (Tracer, Points) {
+    let triangles: Vec<[Vec3; 3]> = (0..30)
+        .map(|_| {
+            let size = 4.0 * random.unit().powi(3) + 1e-3;
+            let centre = random.vector() * 5.0;
+            [0, 1, 2].map(|_| centre + random.vector() * size)
+        })
+        .collect();
+    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let mut points = Points::default();
+    for index in 0..40 {
+        let t = index % triangles.len();
+        let [a, b, c] = triangles[t];
+        let (p, q) = (random.unit(), random.unit());
+        // Every fourth near an edge, every fourth in mid-air.
+        let p = if index % 4 == 0 { p * 1e-4 } else { p };
+        let on = a + (b - a) * (p * (1.0 - q)) + (c - a) * (q * 0.999);
+        let floats = index % 4 == 1;
+        points.position.push(if floats { random.vector() * 6.0 } else { on });
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        points.normal.push(if floats { Vec3::ZERO } else { normal });
+        points.triangle.push(if floats { u32::MAX } else { t as u32 });
+    }
+    (tracer, points)
+}
+
+/// A thousand scenes at random, each with one light of each kind in turn. Ties are as in
 /// `assert_ties_only`: about one point in 8,000 for each silhouette. There are 40,000 points with up
 /// to 30 silhouettes each, of which most hide all or nothing: at most one in 200.
 #[test]
@@ -91,28 +132,7 @@ fn a_thousand_soups() {
     let mut random = Random(11);
     let (mut points_in_all, mut differing, mut partial) = (0, 0, 0);
     for soup in 0..1000 {
-        let triangles: Vec<[Vec3; 3]> = (0..30)
-            .map(|_| {
-                let size = 4.0 * random.unit().powi(3) + 1e-3;
-                let centre = random.vector() * 5.0;
-                [0, 1, 2].map(|_| centre + random.vector() * size)
-            })
-            .collect();
-        let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
-        let mut points = Points::default();
-        for index in 0..40 {
-            let t = index % triangles.len();
-            let [a, b, c] = triangles[t];
-            let (p, q) = (random.unit(), random.unit());
-            // Every fourth near an edge, every fourth in mid-air.
-            let p = if index % 4 == 0 { p * 1e-4 } else { p };
-            let on = a + (b - a) * (p * (1.0 - q)) + (c - a) * (q * 0.999);
-            let floats = index % 4 == 1;
-            points.position.push(if floats { random.vector() * 6.0 } else { on });
-            let normal = (b - a).cross(c - a).normalize_or_zero();
-            points.normal.push(if floats { Vec3::ZERO } else { normal });
-            points.triangle.push(if floats { u32::MAX } else { t as u32 });
-        }
+        let (tracer, points) = small_soup(&mut random);
         let light = lights()[soup % 4];
         let pair = both(&tracer, &points, &light, PAIRS[1]);
         let found = differences(&pair);

@@ -5,6 +5,7 @@ mod cache;
 mod closed_forms;
 mod common;
 mod exact;
+mod gpu;
 mod independence;
 mod irradiance;
 mod pitfalls;

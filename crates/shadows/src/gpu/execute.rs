@@ -41,8 +41,10 @@ impl Gpu {
 
     fn execute(&mut self, recording: &Recording, reads_values: bool) -> Result<Shaded, ShadowError> {
         let run = self.prepare(recording)?;
-        let mut encoder =
-            self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        let mut encoder = self
+            .device
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         let mut timed = Vec::new();
         for pass in &recording.passes {
             let written = pass.written();
@@ -71,27 +73,27 @@ impl Gpu {
 
     fn prepare<'a>(&mut self, recording: &'a Recording) -> Result<Run<'a>, ShadowError> {
         let bytes = (u64::from(recording.globals.receivers) * 4).max(4);
-        let limits = self.device.limits();
+        let limits = self.device.device.limits();
         let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         if bytes > limit {
             return Err(ShadowError::TooLarge { what: "a result", wanted: bytes, limit });
         }
         use wgpu::util::DeviceExt as _;
         let block = |globals: &Globals| {
-            self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            self.device.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("globals"),
                 contents: bytemuck::bytes_of(globals),
                 usage: wgpu::BufferUsages::UNIFORM,
             })
         };
         let globals = std::iter::once(&recording.globals).chain(&recording.earlier).map(block).collect();
-        let values = self.device.create_buffer(&wgpu::BufferDescriptor {
+        let values = self.device.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("values"),
             size: bytes,
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        let allocated = self.textures.allocate(&self.device, recording);
+        let allocated = self.textures.allocate(&self.device.device, recording);
         Ok(Run { recording, allocated, globals, values })
     }
 
@@ -101,7 +103,7 @@ impl Gpu {
         run: &Run<'_>,
         (pass, slot): (&ComputePass, Option<u32>),
     ) {
-        let compiled = self.pipelines.compute(&self.device, (pass, run.recording));
+        let compiled = self.pipelines.compute(&self.device.device, (pass, run.recording));
         let group = self.bind_group(run, &compiled.layout, &pass.bindings);
         let timestamp_writes =
             self.timestamps.as_ref().zip(slot).map(|(query_set, slot)| wgpu::ComputePassTimestampWrites {
@@ -122,7 +124,7 @@ impl Gpu {
         run: &Run<'_>,
         (pass, slot): (&RasterPass, Option<u32>),
     ) {
-        let compiled = self.pipelines.raster(&self.device, (pass, run.recording));
+        let compiled = self.pipelines.raster(&self.device.device, (pass, run.recording));
         let group = self.bind_group(run, &compiled.layout, &pass.bindings);
         let view = |t: TextureId| view_of(&run.allocated.textures[t.0], Some(0));
         let clears = pass.viewport.is_none_or(|[x, y, ..]| x == 0 && y == 0);
@@ -200,7 +202,11 @@ impl Gpu {
                 Some(wgpu::BindGroupEntry { binding: binding.number(), resource })
             })
             .collect();
-        self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+        self.device.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
     }
 }
 

@@ -1,32 +1,26 @@
-//! The only place that knows wgpu: adapters, device, and the execution of recordings.
+//! The only place here that knows wgpu: the execution of recordings.
 
-mod adapter;
 mod execute;
 mod pipelines;
 mod readback;
 mod textures;
 
-pub use adapter::{AdapterChoice, AdapterDescription, adapters};
 pub use execute::Timing;
 
 use crate::ShadowError;
 use crate::layout::{Anchor, Vertex};
 use pipelines::Pipelines;
-use std::sync::{Arc, Mutex};
 use textures::Textures;
+use umbrage_device::{AdapterChoice, AdapterDescription, Device, DeviceError};
 
 /// A device with everything that outlives a frame.
 pub struct Gpu {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
-    description: AdapterDescription,
+    device: Device,
     pipelines: Pipelines,
     textures: Textures,
     timestamps: Option<wgpu::QuerySet>,
     vertices: Option<(wgpu::Buffer, u32)>,
     anchors: Option<(wgpu::Buffer, u32)>,
-    /// What validation or the driver said outside of any call's result.
-    complaints: Arc<Mutex<Vec<String>>>,
 }
 
 /// Passes of a recording that are timed.
@@ -38,53 +32,20 @@ impl Gpu {
     /// # Errors
     /// An unknown backend, no adapter that fits, or one that gives no device.
     pub fn new(choice: &AdapterChoice) -> Result<Self, ShadowError> {
-        let (adapter, description) = adapter::choose(choice)?;
-        let wanted = wgpu::Features::TIMESTAMP_QUERY;
-        let request = wgpu::DeviceDescriptor {
-            label: Some("umbrage"),
-            required_features: adapter.features() & wanted,
-            required_limits: adapter.limits(),
-            ..Default::default()
-        };
-        let (device, queue) = pollster::block_on(adapter.request_device(&request)).map_err(|e| {
-            ShadowError::NoDevice { adapter: description.name.clone(), reason: e.to_string() }
-        })?;
-        let complaints = Arc::new(Mutex::new(Vec::new()));
-        let sink = Arc::clone(&complaints);
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            if let Ok(mut list) = sink.lock() {
-                list.push(error.to_string());
-            }
-        }));
-        let timestamps = device.features().contains(wanted).then(|| {
-            device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: Some("pass times"),
-                ty: wgpu::QueryType::Timestamp,
-                count: 2 * MAX_TIMED_PASSES,
-            })
-        });
-        let (pipelines, textures) = (Pipelines::new(&device), Textures::default());
-        Ok(Self {
-            device,
-            queue,
-            description,
-            pipelines,
-            textures,
-            timestamps,
-            vertices: None,
-            anchors: None,
-            complaints,
-        })
+        let device = Device::open(choice)?;
+        let timestamps = device.timestamps("pass times", 2 * MAX_TIMED_PASSES);
+        let (pipelines, textures) = (Pipelines::new(&device.device), Textures::default());
+        Ok(Self { device, pipelines, textures, timestamps, vertices: None, anchors: None })
     }
 
     /// Which adapter this is.
     pub fn description(&self) -> &AdapterDescription {
-        &self.description
+        self.device.description()
     }
 
     /// Largest side of a texture.
     pub fn largest_texture(&self) -> u32 {
-        self.device.limits().max_texture_dimension_2d
+        self.device.device.limits().max_texture_dimension_2d
     }
 
     /// Lets go of kept textures.
@@ -119,31 +80,11 @@ impl Gpu {
         bytes: &[u8],
         usage: wgpu::BufferUsages,
     ) -> Result<wgpu::Buffer, ShadowError> {
-        let limits = self.device.limits();
-        let limit = match usage {
-            wgpu::BufferUsages::STORAGE => limits.max_storage_buffer_binding_size.min(limits.max_buffer_size),
-            _ => limits.max_buffer_size,
-        };
-        if bytes.len() as u64 > limit {
-            return Err(ShadowError::TooLarge { what: "a buffer", wanted: bytes.len() as u64, limit });
-        }
-        use wgpu::util::DeviceExt as _;
-        // Bindings of zero bytes are invalid.
-        let contents = if bytes.is_empty() { &[0; 32] } else { bytes };
-        Ok(self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some(label),
-            contents,
-            usage,
-        }))
-    }
-
-    /// Errors that wgpu reported since the last call.
-    fn check(&self) -> Result<(), ShadowError> {
-        let mut list = self.complaints.lock().map_err(|_| ShadowError::Gpu("a callback panicked".into()))?;
-        if list.is_empty() {
-            Ok(())
-        } else {
-            Err(ShadowError::Gpu(list.drain(..).collect::<Vec<_>>().join("; ")))
-        }
+        self.device.upload(label, bytes, usage).map_err(|error| match error {
+            DeviceError::TooLarge { wanted, limit } => {
+                ShadowError::TooLarge { what: "a buffer", wanted, limit }
+            }
+            other => other.into(),
+        })
     }
 }

@@ -3,11 +3,7 @@
 use super::Gpu;
 use crate::recording::{Format, Recording, TextureInfo};
 use crate::{Dump, ShadowError};
-use std::time::Duration;
 use umbrage_frame::Image;
-
-/// A frame on a software driver takes seconds at most; a hung driver is told from a slow one.
-const PATIENCE: Duration = Duration::from_secs(300);
 
 impl Gpu {
     /// Submits, waits, and returns the values and the milliseconds of `timed` passes.
@@ -18,29 +14,18 @@ impl Gpu {
         timed: u32,
     ) -> Result<(Vec<f32>, Vec<f64>), ShadowError> {
         let staging = values.map(|(buffer, bytes)| {
-            let staging = self.staging(bytes);
+            let staging = self.device.staging(bytes);
             encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, bytes);
             staging
         });
-        let times = self.timestamps.as_ref().filter(|_| timed > 0).map(|queries| {
-            let bytes = u64::from(timed) * 16;
-            let resolved = self.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("resolved times"),
-                size: bytes,
-                usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
-                mapped_at_creation: false,
-            });
-            let staging = self.staging(bytes);
-            encoder.resolve_query_set(queries, 0..2 * timed, &resolved, 0);
-            encoder.copy_buffer_to_buffer(&resolved, 0, &staging, 0, bytes);
-            staging
-        });
-        self.queue.submit([encoder.finish()]);
-        self.check()?;
-        let floats = staging.map(|s| self.read::<f32>(&s)).transpose()?.unwrap_or_default();
-        let ticks = times.map(|s| self.read::<u64>(&s)).transpose()?.unwrap_or_default();
-        self.wait()?;
-        let period_ms = f64::from(self.queue.get_timestamp_period()) * 1e-6;
+        let queries = self.timestamps.as_ref().filter(|_| timed > 0);
+        let times = queries.map(|queries| self.device.resolve(&mut encoder, queries, 2 * timed));
+        self.device.queue.submit([encoder.finish()]);
+        self.device.check()?;
+        let floats = staging.map(|s| self.device.read::<f32>(&s)).transpose()?.unwrap_or_default();
+        let ticks = times.map(|s| self.device.read::<u64>(&s)).transpose()?.unwrap_or_default();
+        self.device.wait()?;
+        let period_ms = f64::from(self.device.queue.get_timestamp_period()) * 1e-6;
         let ms = ticks.chunks_exact(2).map(|t| t[1].saturating_sub(t[0]) as f64 * period_ms).collect();
         Ok((floats, ms))
     }
@@ -48,14 +33,14 @@ impl Gpu {
     /// Reads every level of every texture of a recording that was just run, but for depth buffers;
     /// integers as the nearest float.
     pub(crate) fn read_textures(&mut self, recording: &Recording) -> Result<Vec<Dump>, ShadowError> {
-        let allocated = self.textures.allocate(&self.device, recording);
+        let allocated = self.textures.allocate(&self.device.device, recording);
         let mut dumps = Vec::new();
         for (info, texture) in recording.textures.iter().zip(&allocated.textures) {
             for level in 0..info.mips {
                 dumps.extend(self.read_level(info, texture, level)?);
             }
         }
-        self.check()?;
+        self.device.check()?;
         Ok(dumps)
     }
 
@@ -75,8 +60,8 @@ impl Gpu {
         let [width, height] = info.size(level);
         // Rows of a copy are aligned to 256 bytes.
         let row_bytes = (width * texel_bytes).next_multiple_of(256);
-        let staging = self.staging(u64::from(row_bytes) * u64::from(height));
-        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let staging = self.device.staging(u64::from(row_bytes) * u64::from(height));
+        let mut encoder = self.device.device.create_command_encoder(&Default::default());
         encoder.copy_texture_to_buffer(
             wgpu::TexelCopyTextureInfo { mip_level: level, ..texture.as_image_copy() },
             wgpu::TexelCopyBufferInfo {
@@ -89,8 +74,8 @@ impl Gpu {
             },
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
-        self.queue.submit([encoder.finish()]);
-        let bytes = self.read::<u8>(&staging)?;
+        self.device.queue.submit([encoder.finish()]);
+        let bytes = self.device.read::<u8>(&staging)?;
         let texel = |x: u32, y: u32, c: u32| {
             let at = (y * row_bytes + x * texel_bytes) as usize;
             match info.format {
@@ -101,32 +86,6 @@ impl Gpu {
         };
         let channel = |c| Image::from_fn(width, height, |x, y| texel(x, y, c));
         Ok(Some(Dump { label: info.label, level, channels: (0..channels).map(channel).collect() }))
-    }
-
-    fn staging(&self, bytes: u64) -> wgpu::Buffer {
-        self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("staging"),
-            size: bytes.max(4),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        })
-    }
-
-    fn read<T: bytemuck::Pod>(&self, staging: &wgpu::Buffer) -> Result<Vec<T>, ShadowError> {
-        staging.slice(..).map_async(wgpu::MapMode::Read, |_| {});
-        self.wait()?;
-        let range = staging.slice(..).get_mapped_range().map_err(|e| ShadowError::Gpu(e.to_string()))?;
-        Ok(bytemuck::pod_collect_to_vec(&range))
-    }
-
-    fn wait(&self) -> Result<(), ShadowError> {
-        let waited =
-            self.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) });
-        match waited {
-            Ok(_) => self.check(),
-            Err(wgpu::PollError::Timeout) => Err(ShadowError::Timeout { secs: PATIENCE.as_secs() }),
-            Err(e) => Err(ShadowError::Gpu(e.to_string())),
-        }
     }
 }
 

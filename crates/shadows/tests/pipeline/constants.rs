@@ -2,7 +2,7 @@
 
 use crate::support::edited::without_constant;
 use crate::support::{self, still_life, variant_id};
-use umbrage_shadows::{Calibration, Renderer, Seeding, ShadowError};
+use umbrage_shadows::{Calibration, DeviceError, Renderer, Seeding, ShadowError};
 
 #[test]
 fn a_forgotten_constant_is_reported_by_the_frame() {
@@ -14,7 +14,9 @@ fn a_forgotten_constant_is_reported_by_the_frame() {
     let mut gpu = support::gpu();
     let mut renderer = Renderer::new(&mut gpu, &scene, 64).expect("fits");
     let outcome = renderer.shade_frame(broken, (&view, &light), (Seeding::Frozen, [0, 0]));
-    let Err(ShadowError::Gpu(message)) = outcome else { panic!("a frame without FILTER_TAPS: {outcome:?}") };
+    let Err(ShadowError::Device(DeviceError::Refused(message))) = outcome else {
+        panic!("a frame without FILTER_TAPS: {outcome:?}")
+    };
     assert!(message.contains("FILTER_TAPS"), "{message}");
     // The device is still good.
     renderer.shade_frame(whole, (&view, &light), (Seeding::Frozen, [0, 0])).expect("runs");

@@ -1,6 +1,6 @@
 //! Finding an adapter.
 
-use crate::ShadowError;
+use crate::DeviceError;
 
 /// Which adapter is wanted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -38,12 +38,12 @@ pub fn adapters() -> Vec<AdapterDescription> {
     list(REAL).into_iter().map(|(_, description)| description).collect()
 }
 
-pub(super) fn choose(choice: &AdapterChoice) -> Result<(wgpu::Adapter, AdapterDescription), ShadowError> {
+pub(crate) fn choose(choice: &AdapterChoice) -> Result<(wgpu::Adapter, AdapterDescription), DeviceError> {
     let all = list(backends(choice.backend.as_deref().unwrap_or_default())?);
     let found: Vec<String> = all.iter().map(|a| a.1.name.clone()).collect();
     let wanted = choice.name.as_ref().map(|n| n.to_lowercase());
     let fits = |name: &str| wanted.as_ref().is_none_or(|w| name.to_lowercase().contains(w));
-    all.into_iter().find(|a| fits(&a.1.name)).ok_or_else(|| ShadowError::NoAdapter {
+    all.into_iter().find(|a| fits(&a.1.name)).ok_or_else(|| DeviceError::NoAdapter {
         wanted: choice.name.as_ref().map(|n| format!(" named \"{n}\"")).unwrap_or_default(),
         found: if found.is_empty() { "none".into() } else { found.join(", ") },
     })
@@ -53,13 +53,13 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<(wgpu::Adapter, AdapterDe
 const REAL: wgpu::Backends = wgpu::Backends::VULKAN.union(wgpu::Backends::METAL).union(wgpu::Backends::DX12);
 
 /// Those that a name or a comma list means.
-fn backends(wanted: &str) -> Result<wgpu::Backends, ShadowError> {
+fn backends(wanted: &str) -> Result<wgpu::Backends, DeviceError> {
     // An empty variable is as good as none.
     if wanted.trim().is_empty() {
         return Ok(REAL);
     }
     let known: wgpu::Backends = wanted.split(',').filter_map(|name| backend(name.trim())).collect();
-    if known.is_empty() { Err(ShadowError::UnknownBackend { wanted: wanted.into() }) } else { Ok(known) }
+    if known.is_empty() { Err(DeviceError::UnknownBackend { wanted: wanted.into() }) } else { Ok(known) }
 }
 
 fn backend(name: &str) -> Option<wgpu::Backends> {
@@ -142,6 +142,6 @@ mod tests {
     #[test]
     fn an_unknown_backend_opens_no_other_adapter() {
         let choice = AdapterChoice { name: None, backend: Some("vulcan".into()) };
-        assert!(matches!(crate::Gpu::new(&choice), Err(ShadowError::UnknownBackend { .. })));
+        assert!(matches!(crate::Device::open(&choice), Err(DeviceError::UnknownBackend { .. })));
     }
 }

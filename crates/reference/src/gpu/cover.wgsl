@@ -1,0 +1,100 @@
+// A triangle on the rows (scanlines/blocks.rs `sides`, outline.rs `cover`).
+
+// Lines on the left and on the right of the inside: slope and place of each.
+var<workgroup> kept_sides: array<vec4<f32>, KEPT>;
+// Two more: slope, place, and beyond all rows on the side that they do not bound.
+var<workgroup> kept_third: array<vec3<f32>, KEPT>;
+var<workgroup> kept_fourth: array<vec3<f32>, KEPT>;
+// One over the depth of the triangle's plane.
+var<workgroup> kept_form: array<vec3<f32>, KEPT>;
+// Rows from and to, and what else there is.
+var<workgroup> kept_rows: array<u32, KEPT>;
+const WITH_FOURTH = 0x10000u;
+const WITH_FORM = 0x20000u;
+
+fn third(line: Line) -> vec3<f32> {
+    return vec3<f32>(line.slope, line.at, select(-BEYOND, BEYOND, line.left));
+}
+
+fn keep(s: Sight, t: u32, slot: u32) {
+    let seen = survey(s, slot, corners_of(slot));
+    let a = line_of(turn, seen.edges[0]);
+    let b = line_of(turn, seen.edges[1]);
+    let c = line_of(turn, seen.edges[2]);
+    let span = rows_of(s, seen, turn);
+    var rows = span.x | (span.y << 8u);
+    let plane = seen.edges[0] + seen.edges[1] + seen.edges[2];
+    // One line on each side, and a third; all three on one side where it reaches behind the receiver.
+    if a.left == b.left && b.left == c.left {
+        kept_sides[t] = vec4<f32>(
+            select(vec2<f32>(0.0, -BEYOND), vec2<f32>(a.slope, a.at), a.left),
+            select(vec2<f32>(a.slope, a.at), vec2<f32>(0.0, BEYOND), a.left),
+        );
+        kept_third[t] = third(b);
+        kept_fourth[t] = third(c);
+        rows |= WITH_FOURTH;
+        if seen.straddles {
+            rows |= WITH_FORM;
+        }
+    } else {
+        var left = a;
+        var right = b;
+        var other = c;
+        if a.left == b.left {
+            right = c;
+            other = b;
+            if !a.left {
+                left = c;
+                right = a;
+            }
+        } else if !a.left {
+            left = b;
+            right = a;
+        }
+        kept_sides[t] = vec4<f32>(left.slope, left.at, right.slope, right.at);
+        kept_third[t] = third(other);
+        if seen.straddles && FLAT {
+            kept_fourth[t] = third(line_of(turn, vec3<f32>(plane.xy, plane.z - seen.volume / s.near)));
+            rows |= WITH_FOURTH;
+        } else if seen.straddles {
+            rows |= WITH_FORM;
+        }
+    }
+    kept_form[t] = plane / seen.volume;
+    kept_rows[t] = rows;
+}
+
+// Hides what is inside one of the triangles on the list.
+fn cover(s: Sight, t: u32) {
+    let rows = kept_rows[t];
+    let sides = kept_sides[t];
+    let bound = kept_third[t];
+    // each row
+    if touched(rows, ROWu) {
+        row_ROW.hidden |= covered(s, t, rows, sides, bound, row_ROW);
+    }
+    // end
+}
+
+// Whether a triangle may touch any lane's row of a number.
+fn touched(rows: u32, i: u32) -> bool {
+    return STRIDES * (i + 1u) > (rows & 0xffu) && STRIDES * i < ((rows >> 8u) & 0xffu);
+}
+
+fn covered(s: Sight, t: u32, rows: u32, sides: vec4<f32>, bound: vec3<f32>, row: Row) -> u32 {
+    let x = bound.x * row.y + bound.y;
+    var places = vec2<f32>(
+        max(sides.x * row.y + sides.y, min(x, bound.z)),
+        min(sides.z * row.y + sides.w, max(x, bound.z)),
+    );
+    if (rows & WITH_FOURTH) != 0u {
+        let fourth = kept_fourth[t];
+        let x = fourth.x * row.y + fourth.y;
+        places = vec2<f32>(max(places.x, min(x, fourth.z)), min(places.y, max(x, fourth.z)));
+    }
+    var bits = between(s, row, places);
+    if KIND != SUN && (rows & WITH_FORM) != 0u {
+        bits = nearer(s, turn, row, kept_form[t], bits);
+    }
+    return bits;
+}

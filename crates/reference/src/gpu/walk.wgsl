@@ -1,0 +1,270 @@
+// One group of receivers a workgroup: walks the tree with the volume between them and the light, and
+// lists the triangles that it touches.
+
+@group(0) @binding(4) var<storage, read> nodes: array<vec4<u32>>;
+@group(0) @binding(5) var<storage, read_write> pool: array<u32>;
+@group(0) @binding(6) var<storage, read_write> heads: array<u32>;
+@group(0) @binding(7) var<storage, read_write> next_free: atomic<u32>;
+
+const THREADS = 64u;
+// Pairs of nodes that are open at once. 32 are taken at a time, so a tree 32 levels deep fits.
+const OPEN = 1024u;
+const FOUND = 2048u;
+// Listed when that many are found: 64 leaves of eight still fit.
+const ENOUGH = 1536u;
+// f32 rounding of all of the below, in parts of the extent: four times the host's, whose planes are f64.
+const ROUNDING = 64.0 / 16777216.0;
+
+var<workgroup> open: array<u32, OPEN>;
+var<workgroup> opened: atomic<u32>;
+var<workgroup> found: array<u32, FOUND>;
+var<workgroup> count: atomic<u32>;
+var<workgroup> lost: atomic<u32>;
+var<workgroup> least: array<vec4<f32>, THREADS>;
+var<workgroup> least_over: array<f32, THREADS>;
+// Where the list goes on, and the chunk before.
+var<workgroup> chunk: u32;
+var<workgroup> before: u32;
+
+// Planes turned inwards, w their offset. A plane of zeros holds everything.
+var<private> plane_0: vec4<f32>;
+var<private> plane_1: vec4<f32>;
+var<private> plane_2: vec4<f32>;
+var<private> plane_3: vec4<f32>;
+var<private> plane_4: vec4<f32>;
+var<private> low: vec3<f32>;
+var<private> high: vec3<f32>;
+
+fn side(axis: vec3<f32>, at: vec3<f32>, along: vec3<f32>) -> vec4<f32> {
+    let n = cross(at, along);
+    let length2 = dot(n, n);
+    if !(length2 > 0.0) {
+        return vec4<f32>(0.0);
+    }
+    let unit = n * inverseSqrt(length2);
+    let height = dot(unit, axis);
+    if abs(height) <= 1e-4 * length(axis) {
+        return vec4<f32>(0.0);
+    }
+    return vec4<f32>(unit * sign(height), 1.0);
+}
+
+fn set_sides(middle: vec3<f32>) {
+    if KIND == SUN {
+        plane_0 = task.sides[0];
+        plane_1 = task.sides[1];
+        plane_2 = task.sides[2];
+        plane_3 = task.sides[3];
+        return;
+    }
+    let axis = task.centre - middle;
+    var u = task.u;
+    var v = task.v;
+    if KIND == SPHERE {
+        let far = length(axis);
+        let s = task.radius / far;
+        if s > 0.95 {
+            return;
+        }
+        let pair = orthonormal_pair(axis / far);
+        let width = 1.0001 * far * s / sqrt(1.0 - s * s);
+        u = pair[0] * width;
+        v = pair[1] * width;
+    }
+    plane_0 = side(axis, axis + u, v);
+    plane_1 = side(axis, axis - u, v);
+    plane_2 = side(axis, axis + v, u);
+    plane_3 = side(axis, axis - v, u);
+}
+
+// The light's lowest height over a plane. A sun's sides are the same from everywhere.
+fn lowest_of_light(n: vec3<f32>) -> f32 {
+    if KIND == SUN {
+        return 3e38;
+    }
+    if KIND == SPHERE {
+        return dot(n, task.centre) - task.radius;
+    }
+    let a = min(dot(n, task.corners[0].xyz), dot(n, task.corners[1].xyz));
+    return min(a, min(dot(n, task.corners[2].xyz), dot(n, task.corners[3].xyz)));
+}
+
+// How low the receivers and the light stand over a plane; w is 0 where there is none.
+fn offset(plane: vec4<f32>, receivers: f32, slack: f32) -> f32 {
+    return select(min(receivers, lowest_of_light(plane.xyz)) - slack, -1.0, plane.w == 0.0);
+}
+
+fn touches(box_low: vec3<f32>, box_high: vec3<f32>) -> bool {
+    if any(box_low > high) || any(box_high < low) {
+        return false;
+    }
+    let centre = 0.5 * (box_low + box_high);
+    let half = 0.5 * (box_high - box_low);
+    return reaches(plane_0, centre, half) && reaches(plane_1, centre, half) && reaches(plane_2, centre, half)
+        && reaches(plane_3, centre, half) && reaches(plane_4, centre, half);
+}
+
+fn reaches(plane: vec4<f32>, centre: vec3<f32>, half: vec3<f32>) -> bool {
+    return dot(plane.xyz, centre) + dot(abs(plane.xyz), half) >= plane.w;
+}
+
+fn misses(slot: u32) -> bool {
+    let a = corners[3u * slot].xyz;
+    let b = corners[3u * slot + 1u].xyz;
+    let c = corners[3u * slot + 2u].xyz;
+    return below(plane_0, a, b, c) || below(plane_1, a, b, c) || below(plane_2, a, b, c)
+        || below(plane_3, a, b, c) || below(plane_4, a, b, c);
+}
+
+fn below(plane: vec4<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    return max(dot(plane.xyz, a), max(dot(plane.xyz, b), dot(plane.xyz, c))) < plane.w;
+}
+
+@compute @workgroup_size(64)
+fn walk(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let group = groups[task.first_group + workgroup.x];
+    let slack = ROUNDING * (task.extent + max(max_of(abs(group.low)), max_of(abs(group.high))));
+    // The volume: planes as low as the lowest receiver and the light.
+    set_sides(0.5 * (group.low + group.high));
+    plane_4 = vec4<f32>(group.normal, 0.0);
+    low = min(group.low, task.low.xyz) - slack;
+    high = max(group.high, task.high.xyz) + slack;
+    let at = bitcast<vec3<f32>>(receivers[group.first + min(lane, group.count - 1u)].xyz);
+    least[lane] = vec4<f32>(
+        dot(plane_0.xyz, at), dot(plane_1.xyz, at), dot(plane_2.xyz, at), dot(plane_3.xyz, at),
+    );
+    least_over[lane] = dot(group.normal, at);
+    if lane == 0u {
+        open[0] = task.root;
+        atomicStore(&opened, 1u);
+        atomicStore(&count, 0u);
+        atomicStore(&lost, 0u);
+        before = NONE;
+        heads[workgroup.x] = NONE;
+    }
+    for (var step = THREADS / 2u; step > 0u; step = step / 2u) {
+        workgroupBarrier();
+        if lane < step {
+            least[lane] = min(least[lane], least[lane + step]);
+            least_over[lane] = min(least_over[lane], least_over[lane + step]);
+        }
+    }
+    workgroupBarrier();
+    plane_0.w = offset(plane_0, least[0].x, slack);
+    plane_1.w = offset(plane_1, least[0].y, slack);
+    plane_2.w = offset(plane_2, least[0].z, slack);
+    plane_3.w = offset(plane_3, least[0].w, slack);
+    plane_4.w = select(least_over[0] - slack, -1.0, all(group.normal == vec3<f32>(0.0)));
+    // The walk.
+    loop {
+        let top = atomicLoad(&opened);
+        let taken = min(top, THREADS / 2u);
+        var pair = 0u;
+        let has = lane / 2u < taken;
+        if has {
+            pair = open[top - 1u - lane / 2u];
+        }
+        workgroupBarrier();
+        if lane == 0u {
+            atomicStore(&opened, top - taken);
+        }
+        workgroupBarrier();
+        if has {
+            visit(pair + (lane & 1u));
+        }
+        workgroupBarrier();
+        let enough = atomicLoad(&count) > ENOUGH;
+        let done = atomicLoad(&opened) == 0u;
+        let failed = atomicLoad(&lost);
+        if enough || done {
+            list(workgroup.x, lane);
+        }
+        if failed != 0u || done {
+            break;
+        }
+        workgroupBarrier();
+    }
+    workgroupBarrier();
+    if lane == 0u {
+        let failed = atomicLoad(&lost);
+        if failed != 0u {
+            heads[workgroup.x] = select(EXHAUSTED, OVERFLOW, (failed & 1u) != 0u);
+        }
+    }
+}
+
+fn visit(index: u32) {
+    let lower = nodes[2u * index];
+    let upper = nodes[2u * index + 1u];
+    if !touches(bitcast<vec3<f32>>(lower.xyz), bitcast<vec3<f32>>(upper.xyz)) {
+        return;
+    }
+    if lower.w == 0u {
+        let place = atomicAdd(&opened, 1u);
+        if place < OPEN {
+            open[place] = upper.w;
+        } else {
+            atomicOr(&lost, 1u);
+        }
+        return;
+    }
+    for (var slot = upper.w; slot < upper.w + lower.w; slot++) {
+        if misses(slot) {
+            continue;
+        }
+        let place = atomicAdd(&count, 1u);
+        if place < FOUND {
+            found[place] = slot;
+        } else {
+            atomicOr(&lost, 1u);
+        }
+    }
+}
+
+// Appends what was found to the group's list: a chunk is the next one's place, its length, its slots,
+// then each coordinate of all their corners.
+fn list(group: u32, lane: u32) {
+    let length = min(atomicLoad(&count), FOUND);
+    workgroupBarrier();
+    if length == 0u {
+        return;
+    }
+    if lane == 0u {
+        let words = 10u * length + 2u;
+        let place = atomicAdd(&next_free, words);
+        chunk = place;
+        if place > task.pool_words || words > task.pool_words - place {
+            atomicOr(&lost, 2u);
+            chunk = NONE;
+        } else {
+            pool[place] = NONE;
+            pool[place + 1u] = length;
+            if before == NONE {
+                heads[group] = place;
+            } else {
+                pool[before] = place;
+            }
+            before = place;
+        }
+        atomicStore(&count, 0u);
+    }
+    workgroupBarrier();
+    if chunk != NONE {
+        for (var i = lane; i < length; i += THREADS) {
+            let at = chunk + 2u + i;
+            let slot = found[i];
+            pool[at] = slot;
+            for (var k = 0u; k < 3u; k++) {
+                let corner = bitcast<vec3<u32>>(corners[3u * slot + k].xyz);
+                pool[at + (3u * k + 1u) * length] = corner.x;
+                pool[at + (3u * k + 2u) * length] = corner.y;
+                pool[at + (3u * k + 3u) * length] = corner.z;
+            }
+        }
+    }
+    workgroupBarrier();
+}
+
+fn max_of(v: vec3<f32>) -> f32 {
+    return max(v.x, max(v.y, v.z));
+}
