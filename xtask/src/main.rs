@@ -12,7 +12,8 @@ const USAGE: &str = "cargo xtask COMMAND
   evaluate [ARGS]  build the program, install a software Vulkan driver if there is no adapter, and run
                    `umbrage evaluate ARGS`: renders, scores and writes a report
   test             the same driver check, then all tests
-  ci               formatting, lints, layers, duplicate versions, documentation, all tests
+  ci               formatting, lints, layers, duplicate versions, documentation, all tests, and the gate against the
+                   committed baseline of the quick suite
   layers           check the dependency invariants of ARCHITECTURE.md
   figures          render the pictures of README and docs/techniques.md again
   bless            renew committed goldens (the scorecard's schema and shape)";

@@ -126,7 +126,16 @@ pub(crate) fn ci() -> Outcome {
     run(&cargo(), &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
     let mut doc = Command::new(cargo());
     run_in(doc.args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"))?;
-    test()
+    test()?;
+    gate()
+}
+
+/// The committed baseline of the quick suite: `umbrage evaluate --quick --save-baseline quick` renews it.
+fn gate() -> Outcome {
+    let mut command = Command::new(adapter::program("debug")?);
+    let arguments = ["evaluate", "--quick", "--baseline", "quick", "--reference-on", "cpu"];
+    let places = ["--cache", "target/gate/cache", "--out", "target/gate/run"];
+    run_in(adapter::quiet(command.args(arguments).args(places)))
 }
 
 /// Types of two copies of these do not match each other.

@@ -69,6 +69,9 @@ impl BaselineWindow {
     }
 }
 
+/// Share of a window's points that may be scored on one side only, or in another region.
+const MOST_LOST: f64 = 0.002;
+
 /// A variant in a window on both sides.
 struct Pair<'a> {
     window: &'a BaselineWindow,
@@ -160,8 +163,11 @@ fn pairs<'a>(base: &'a Baseline, run: &'a Baseline, variant: &str) -> Result<Vec
         let table =
             |rows: fn(&BaselineSums) -> &[Vec<f64>]| sums.map(|s| BaselineSums::table(rows(s), window));
         let tables = [table(|s| &s.cells), table(|s| &s.profile), table(|s| &s.blocks)];
-        let counts = |t: &SumTable| t.rows.iter().map(|(.., s)| s[..3].to_vec()).collect::<Vec<_>>();
-        if counts(&tables[0][0]) != counts(&tables[0][1]) {
+        // Penumbra, umbra and lit points: a driver that rounds otherwise may lose a few at silhouettes.
+        let counts = |t: &SumTable| [0, 1, 2].map(|k| t.rows.iter().map(|(.., s)| s[k]).sum::<f64>());
+        let [before, after] = [0, 1].map(|side| counts(&tables[0][side]));
+        let all: f64 = before.iter().sum();
+        if std::iter::zip(before, after).any(|(a, b)| (a - b).abs() > MOST_LOST * all) {
             let reason = format!("{}, {}: other points are scored; truth changed", window.scene, window.path);
             return Err(ReportError::NotComparable(vec![reason]));
         }
