@@ -50,7 +50,7 @@ fn assert_all_the_rest([cpu, gpu]: &[GroundTruth; 2]) {
     assert!(odd <= cpu.mean.len() / 200, "{odd} of {} points differ in the rest", cpu.mean.len());
 }
 
-/// What f32 cannot tell: a light seen within .6 degrees of edge-on, a sphere from within a tenth of its radius,
+/// What f32 cannot tell: a light seen within .1 degrees of edge-on, a sphere from within a tenth of its radius,
 /// a horizon without a triangle.
 const MOST_ON_CPU: usize = 100;
 
