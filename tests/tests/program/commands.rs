@@ -107,6 +107,8 @@ fn unknown_names_suggest_the_nearest() {
         ("render colonnade --variant hrad", "did you mean \"hard\"?"),
         ("evaluate --scene colonade", "colonnade"),
         ("reference colonnade --frame 9999", "there is no frame 9999"),
+        ("reference colonnade --reference-on gpu --method rays", "a GPU does --method scanlines only"),
+        ("reference colonnade --reference-on gpu --backend vulcan", "choose vulkan, metal or dx12"),
     ];
     for (line, words) in cases {
         said(line).ended_with(2).says(words);

@@ -28,10 +28,10 @@ impl Buffers {
             receivers: none(),
             order: none(),
             groups: none(),
-            results: buffer(device, "results", 64, Usage::STORAGE | Usage::COPY_SRC),
+            results: buffer(device, "results", 64, Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST),
             staging: device.staging(64),
             pool: buffer(device, "candidates", pool, Usage::STORAGE),
-            heads: buffer(device, "lists", groups as u64 * 4, Usage::STORAGE),
+            heads: buffer(device, "lists", groups as u64 * 8, Usage::STORAGE),
             next_free: buffer(device, "next free", 4, Usage::STORAGE | Usage::COPY_DST),
         }
     }
@@ -51,7 +51,8 @@ impl Buffers {
         grow(&mut self.groups, size_of_val(&prepared.groups[..]))?;
         if self.results.size() < results {
             device.fits(results, Usage::STORAGE)?;
-            self.results = buffer(device, "results", results, Usage::STORAGE | Usage::COPY_SRC);
+            self.results =
+                buffer(device, "results", results, Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST);
         }
         if self.staging.size() < results {
             self.staging = device.staging(results);
@@ -60,7 +61,7 @@ impl Buffers {
     }
 }
 
-fn buffer(device: &Device, label: &str, size: u64, usage: Usage) -> wgpu::Buffer {
+pub(super) fn buffer(device: &Device, label: &str, size: u64, usage: Usage) -> wgpu::Buffer {
     device.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
         size,

@@ -2,7 +2,7 @@
 // list those that hide a part, then each lane hides samples of its own rows (scanlines/mod.rs, `look`).
 
 @group(0) @binding(5) var<storage, read> pool: array<u32>;
-@group(0) @binding(6) var<storage, read> heads: array<u32>;
+@group(0) @binding(6) var<storage, read> heads: array<List>;
 // Visible and (upper half) all samples of both halves; the basis' share and the variance as bits.
 @group(0) @binding(7) var<storage, read_write> results: array<vec4<u32>>;
 // Which result is a receiver's.
@@ -29,11 +29,14 @@ var<workgroup> counts: array<u32, LANES>;
 
 var<private> turn: vec4<f32>;
 var<private> drawn: bool;
+// Some drivers end a loop that they think is endless: what was not looked at is told.
+var<private> broken: bool;
 
 @compute @workgroup_size(32)
 fn look(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = groups[task.first_group + workgroup.x];
-    let head = heads[workgroup.x];
+    let list = heads[workgroup.x];
+    let head = list.first;
     // The candidates, at most 32, among which is the one that hid the light from the last receiver.
     var last = vec3<u32>(0u);
     let end = min((workgroup.y + 1u) * RECEIVERS, group.count);
@@ -57,7 +60,14 @@ fn look(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
             continue;
         }
         drawn = false;
-        let outcome = hide(s, index, head, last, lane);
+        broken = false;
+        let outcome = hide(s, index, list, last, lane);
+        if broken {
+            if lane == 0u {
+                results[to] = vec4<u32>(FOR_CPU, 0u, 0u, 0u);
+            }
+            continue;
+        }
         if outcome.x == HIDDEN {
             last = outcome.yzw;
         }
@@ -78,7 +88,7 @@ fn look(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
 
 // Hides the samples: LIT or HIDDEN (with the candidates that tell) where all or none are visible for
 // sure, otherwise 0.
-fn hide(s: Sight, index: u32, head: u32, last: vec3<u32>, lane: u32) -> vec4<u32> {
+fn hide(s: Sight, index: u32, list: List, last: vec3<u32>, lane: u32) -> vec4<u32> {
     if lane == 0u {
         atomicStore(&tally, 0u);
     }
@@ -95,11 +105,13 @@ fn hide(s: Sight, index: u32, head: u32, last: vec3<u32>, lane: u32) -> vec4<u32
             return vec4<u32>(HIDDEN, last);
         }
     }
-    var at = head;
+    var at = list.first;
+    var surveyed = 0u;
     while at != NONE {
         let length = pool[at + 1u];
         for (var i = 0u; i < length; i += LANES) {
             let place = at + 2u + i;
+            surveyed += min(length - i, LANES);
             if i + lane < length {
                 let seen = candidate(s, place + lane, length);
                 if seen.whole {
@@ -122,6 +134,7 @@ fn hide(s: Sight, index: u32, head: u32, last: vec3<u32>, lane: u32) -> vec4<u32
         }
         at = pool[at];
     }
+    broken = broken || surveyed != list.length;
     let rest = atomicLoad(&tally);
     workgroupBarrier();
     if rest > 0u || (s.across && !drawn) {
@@ -166,9 +179,12 @@ fn settle(s: Sight, index: u32, count: u32, lane: u32) -> bool {
         atomicStore(&tally, 0u);
     }
     workgroupBarrier();
-    for (var t = 0u; t < count; t++) {
+    var t = 0u;
+    while t < count {
         cover(s, t);
+        t++;
     }
+    broken = broken || t != count;
     var open = 0u;
     // each row
     open |= row_ROW.inside & ~row_ROW.hidden;

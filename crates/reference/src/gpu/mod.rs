@@ -37,6 +37,8 @@ const LIT: u32 = 0xffff_ffff;
 const HIDDEN: u32 = 0xffff_fffe;
 const FOR_CPU: u32 = 0xffff_fffd;
 const AGAIN: u32 = 0xffff_fffc;
+/// No replicate has no samples.
+const UNWRITTEN: u32 = 0;
 
 /// A device that finds truth, with the kernels that were needed so far.
 pub struct TruthGpu {
@@ -245,7 +247,7 @@ fn point(word: u32, result: &[u32; 4]) -> Option<PointTruth> {
     match first {
         LIT => return Some(PointTruth::exact(1.0, facing)),
         HIDDEN => return Some(PointTruth::exact(0.0, facing)),
-        FOR_CPU | AGAIN => return None,
+        FOR_CPU | AGAIN | UNWRITTEN => return None,
         _ => {}
     }
     let halves = [first, second].map(|h| f64::from(h & 0xffff) / f64::from(h >> 16).max(1.0));
@@ -256,4 +258,43 @@ fn point(word: u32, result: &[u32; 4]) -> Option<PointTruth> {
         variance: f32::from_bits(variance),
         facing,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use umbrage_frame::View;
+    use umbrage_scene::Scene as SceneOf;
+
+    /// Lists that find no room are made again in smaller companies, and what never fits is the CPU's. A list of
+    /// all 25,940 triangles takes 260,000 words.
+    #[test]
+    fn a_pool_that_is_too_small_loses_nothing() {
+        let scene = SceneOf::builtin("colonnade").expect("a standard scene");
+        let tracer = Tracer::new(&scene).expect("a scene");
+        let frame = &scene.paths[0].frames[0];
+        let camera = frame.camera;
+        let view = View {
+            width: 64,
+            height: 36,
+            clip_from_world: camera.clip_from_camera(16.0 / 9.0) * camera.camera_from_world(),
+            camera_from_world: camera.camera_from_world(),
+            yfov_radians: camera.yfov_radians,
+        };
+        let points = tracer.primary(&view).points();
+        let settings = TruthSettings { samples: 128, basis_samples: 128, ..TruthSettings::default() };
+        let gpu = TruthGpu::open(&AdapterChoice::default()).expect("a graphics adapter");
+        let mut found = GpuTracer::new(&tracer, &gpu).expect("it fits");
+        let whole = found.truth(&points, &frame.light, &settings).expect("done");
+        assert_eq!(found.share().cpu, 0);
+        for (words, all_fit) in [(300_000, true), (600, false)] {
+            let usage = wgpu::BufferUsages::STORAGE;
+            found.buffers.pool = buffers::buffer(&gpu.device, "candidates", 4 * words, usage);
+            let cut = found.truth(&points, &frame.light, &settings).expect("done");
+            let differing = whole.mean.iter().zip(&cut.mean).filter(|(a, b)| a != b).count();
+            assert!(differing <= points.len() / 100, "{words} words: {differing} differ");
+            let share = found.share();
+            assert_eq!(share.cpu == 0, all_fit, "{words} words: {share:?}");
+        }
+    }
 }

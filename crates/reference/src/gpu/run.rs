@@ -15,7 +15,7 @@ use umbrage_scene::AreaLight;
 use wgpu::BufferUsages as Usage;
 
 /// Groups that share the pool; those that found no room share it again in smaller companies.
-pub(super) const BATCHES: [usize; 6] = [16_384, 4096, 1024, 256, 64, 4];
+pub(super) const BATCHES: [usize; 6] = [16_384, 4096, 1024, 256, 16, 1];
 /// Where more than this part of the groups found no room, the next call begins with smaller companies.
 const CROWDED: usize = 8;
 /// Timestamps of a round, two a pass.
@@ -47,6 +47,10 @@ impl GpuTracer<'_> {
         let queue = &device.queue;
         queue.write_buffer(&self.buffers.receivers, 0, bytemuck::cast_slice(&prepared.receivers));
         queue.write_buffer(&self.buffers.order, 0, bytemuck::cast_slice(&prepared.order));
+        let mut encoder = device.device.create_command_encoder(&Default::default());
+        // What stays 0 was not written.
+        encoder.clear_buffer(&self.buffers.results, 0, None);
+        queue.submit([encoder.finish()]);
         task.extent = self.tracer.surfaces.extent;
         task.pool_words = (self.buffers.pool.size() / 4) as u32;
         task.root = self.scene.root;

@@ -58,7 +58,7 @@ fn sight_of(index: u32) -> Sight {
         let across_v = cross(v, axis);
         let across_u = cross(axis, u);
         let volume = dot(task.axis, axis);
-        s.thin = abs(volume) <= 1e-2 * length(u) * length(v) * length(axis);
+        s.thin = abs(volume) <= 2e-3 * length(u) * length(v) * length(axis);
         s.x = across_v / volume;
         s.y = across_u / volume;
         s.z = task.axis / volume;

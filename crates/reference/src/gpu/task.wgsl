@@ -34,7 +34,13 @@ struct Task {
     root: u32,
 }
 
-// Heads of lists of candidates that are none.
+// A group's candidates: the first chunk of their list, and how many there are.
+struct List {
+    first: u32,
+    length: u32,
+}
+
+// First chunks of lists that are none.
 const NONE = 0xffffffffu;
 const OVERFLOW = 0xfffffffeu;
 const EXHAUSTED = 0xfffffffdu;

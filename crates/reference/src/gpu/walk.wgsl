@@ -3,12 +3,13 @@
 
 @group(0) @binding(4) var<storage, read> nodes: array<vec4<u32>>;
 @group(0) @binding(5) var<storage, read_write> pool: array<u32>;
-@group(0) @binding(6) var<storage, read_write> heads: array<u32>;
+@group(0) @binding(6) var<storage, read_write> heads: array<List>;
 @group(0) @binding(7) var<storage, read_write> next_free: atomic<u32>;
 
 const THREADS = 64u;
-// Pairs of nodes that are open at once. 32 are taken at a time, so a tree 32 levels deep fits.
+// Pairs of nodes that are open at once, and from where on fewer are taken: a tree of 100 levels fits.
 const OPEN = 1024u;
+const CROWDED = 512u;
 const FOUND = 2048u;
 // Listed when that many are found: 64 leaves of eight still fit.
 const ENOUGH = 1536u;
@@ -140,7 +141,7 @@ fn walk(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
         atomicStore(&count, 0u);
         atomicStore(&lost, 0u);
         before = NONE;
-        heads[workgroup.x] = NONE;
+        heads[workgroup.x] = List(NONE, 0u);
     }
     for (var step = THREADS / 2u; step > 0u; step = step / 2u) {
         workgroupBarrier();
@@ -158,7 +159,7 @@ fn walk(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
     // The walk.
     loop {
         let top = atomicLoad(&opened);
-        let taken = min(top, THREADS / 2u);
+        let taken = min(top, select(THREADS / 2u, 4u, top > CROWDED));
         var pair = 0u;
         let has = lane / 2u < taken;
         if has {
@@ -186,9 +187,12 @@ fn walk(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_i
     }
     workgroupBarrier();
     if lane == 0u {
+        // Some drivers end a loop that they think is endless: then pairs are left.
         let failed = atomicLoad(&lost);
-        if failed != 0u {
-            heads[workgroup.x] = select(EXHAUSTED, OVERFLOW, (failed & 1u) != 0u);
+        if failed == 2u {
+            heads[workgroup.x].first = EXHAUSTED;
+        } else if failed != 0u || atomicLoad(&opened) != 0u {
+            heads[workgroup.x].first = OVERFLOW;
         }
     }
 }
@@ -240,11 +244,12 @@ fn list(group: u32, lane: u32) {
             pool[place] = NONE;
             pool[place + 1u] = length;
             if before == NONE {
-                heads[group] = place;
+                heads[group].first = place;
             } else {
                 pool[before] = place;
             }
             before = place;
+            heads[group].length += length;
         }
         atomicStore(&count, 0u);
     }

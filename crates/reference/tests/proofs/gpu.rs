@@ -50,7 +50,7 @@ fn assert_all_the_rest([cpu, gpu]: &[GroundTruth; 2]) {
     assert!(odd <= cpu.mean.len() / 200, "{odd} of {} points differ in the rest", cpu.mean.len());
 }
 
-/// What f32 cannot tell: a light seen within .6 degrees of edge-on, a sphere from within a tenth of its radius,
+/// What f32 cannot tell: a light seen within .1 degrees of edge-on, a sphere from within a tenth of its radius,
 /// a horizon without a triangle.
 const MOST_ON_CPU: usize = 100;
 
@@ -164,7 +164,9 @@ fn any_number_of_samples() {
             // Ties go with the samples of a row: at most 64 times those of 256.
             let most = points.len() * (1 + samples as usize / 512) / 100;
             assert!(differing <= most, "{samples}: {differing} of {} differ", points.len());
-            assert!(share.cpu <= points.len() / MOST_ON_CPU, "{samples}: {share:?}");
+            // Mesa's software driver ends loops after 65,535 turns in all, which long rows come near to.
+            let most = points.len() / if samples > 4096 { 20 } else { MOST_ON_CPU };
+            assert!(share.cpu <= most, "{samples}: {share:?}");
             assert_eq!(pair[1].basis.is_empty(), basis_samples == 0);
         }
     }
