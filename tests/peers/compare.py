@@ -24,6 +24,8 @@ from pattern import pattern
 # Lift of the rays in Mitsuba, relative to 1 + the largest coordinate: about twenty times f32's
 # rounding of a position, and a ninetieth of Mitsuba's own.
 LIFT = 1e-6
+# How many of brute force's errors umbrage may be away from it.
+DENIED = 4
 # What larger ones do is shown where there is much to lift rays over.
 LIFTS = {"lift 1e-5": 1e-5, "Mitsuba's own lift": None}
 LIFTED = cases.ATRIUM_LIGHTS
@@ -40,6 +42,7 @@ def main():
     page.write(results, options)
     verdicts = [row.accepted for result in results for row in result.rows if row.required]
     verdicts += [verdict for result in results for verdict in result.shapeless().values()]
+    verdicts += [not witness.contradicts for result in results for witness in result.witnesses]
     print("accepted" if all(verdicts) else "NOT accepted", f"({sum(verdicts)} of {len(verdicts)})")
     return 0 if all(verdicts) else 1
 
@@ -186,6 +189,11 @@ class Witness:
     theirs: float
     value: float
     error: float
+
+    @property
+    def contradicts(self):
+        """Brute force denies what umbrage says."""
+        return abs(self.ours - self.value) > DENIED * self.error
 
 
 def ask_arbiter(case, points, both, which):

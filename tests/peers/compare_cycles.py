@@ -198,7 +198,7 @@ rounding cancels, shows shadows alone.
 
 All differences of R in units of their noise, four pixels in one: from blue (umbrage says less by
 {sheet.END:g} sigma) over white to red (more); a row of rectangle, sun, disk and sphere for each scene, yellow
-where points are left out. Then the same of E, where lit places show Cycles' rounding.
+where points are left out or E0 is too small. Then the same of E, where lit places show Cycles' rounding.
 
 ![differences of E](cycles-e.png)"""
 

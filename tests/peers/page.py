@@ -34,10 +34,13 @@ def head(results, options):
     failed = [f"{r.case.name}: {row.quantity}, {row.what}" for r in results for row in r.rows
               if row.required and not row.accepted]
     failed += [f"{r.case.name}: pattern of {key}" for r in results for key, good in r.shapeless().items() if not good]
+    denied = {r.case.name: sum(w.contradicts for w in r.witnesses) for r in results}
+    failed += [f"{name}: brute force contradicts umbrage at {count} points" for name, count in denied.items() if count]
+    asked = sum(len(r.witnesses) for r in results)
     required = sum(row.required for r in results for row in r.rows)
     tests = sum(len(r.shapeless()) for r in results)
     verdict = ("**Not accepted**: " + "; ".join(failed) if failed
-               else f"**Accepted**: all {required} required rows and all {tests} tests for a pattern.")
+               else f"**Accepted**: all {required} required rows, all {tests} tests for a pattern and brute force at all {asked} points.")
     return f"""# Ground truth against Mitsuba 3
 
 Written by `tests/peers/compare.py`; its README says how to run it and what each number means.
@@ -46,7 +49,8 @@ Written by `tests/peers/compare.py`; its README says how to run it and what each
 of 1, and at umbrage's points also a mean square that exceeds the expected one by at most
 {EXCESS:g} sigma: the mean alone would not see a penumbra that is too wide (`planted.md`). A pattern is
 accepted if neighbours and blocks are within {pattern.ACCEPTED:g} sigma of what noise gives. Of a sphere's light V
-and R are tested, of others E and E0 as well.
+and R are tested, of others E and E0 as well. At single points V must be within four errors of brute
+force, bold where it is not.
 
 | | |
 | --- | --- |
@@ -173,7 +177,7 @@ def witnesses(found):
     lines = ["| chosen | point | apart, sigma | umbrage | Mitsuba | brute force |", "| --- | --- | --- | --- | --- | --- |"]
     for w in found:
         place = ", ".join(f"{x:.3f}" for x in w.place)
-        lines.append(f"| {w.why} | {place} | {w.apart:.1f} | {w.ours:.4f} | {w.theirs:.4f} | {w.value:.4f} ± {w.error:.4f} |")
+        lines.append(f"| {w.why} | {place} | {w.apart:.1f} | {f'**{w.ours:.4f}**' if w.contradicts else f'{w.ours:.4f}'} | {w.theirs:.4f} | {w.value:.4f} ± {w.error:.4f} |")
     return "\n".join(lines)
 
 
