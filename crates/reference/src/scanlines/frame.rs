@@ -6,6 +6,10 @@ use crate::rays::LIGHT_GAP;
 use crate::receiver::Receiver;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
+/// Sine of the angle to a flat light's plane below which it counts as seen edge-on. f32 loses its 2^-24 over
+/// this in `light_from_world`: at 1e-5 whole samples, at 1e-3 less than a thousandth of a light.
+const EDGE_ON: f64 = 1e-3;
+
 /// From the world to a light: a corner (X, Y, Z) has its picture at (X / Z, Y / Z) of the aim's
 /// coordinates; Z is in lengths of the axis.
 pub(crate) struct Frame {
@@ -53,7 +57,7 @@ impl Frame {
     pub(crate) fn new(receiver: &Receiver, aim: &Aim) -> Option<Self> {
         let matrix = DMat3::from_cols(aim.u, aim.v, aim.axis);
         let (width, height, length) = (aim.u.length(), aim.v.length(), aim.axis.length());
-        let thin = matrix.determinant().abs() <= 1e-5 * width * height * length;
+        let thin = matrix.determinant().abs() <= EDGE_ON * width * height * length;
         if thin || width.min(height) < 1e-6 * length {
             return None;
         }
