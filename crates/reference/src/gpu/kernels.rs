@@ -80,7 +80,7 @@ fn head(kind: u32) -> String {
 }
 
 fn walk_source(kind: u32) -> String {
-    [&head(kind), include_str!("task.wgsl"), include_str!("walk.wgsl")].concat()
+    [&head(kind), include_str!("task.wgsl"), include_str!("volume.wgsl"), include_str!("walk.wgsl")].concat()
 }
 
 fn look_source(look: &LookFor) -> String {
@@ -103,8 +103,10 @@ fn look_source(look: &LookFor) -> String {
         include_str!("sight.wgsl"),
         include_str!("survey.wgsl"),
         &each_row(include_str!("rows.wgsl"), rows),
+        include_str!("places.wgsl"),
         &each_row(include_str!("cover.wgsl"), rows),
         &each_row(include_str!("look.wgsl"), rows),
+        &each_row(include_str!("tell.wgsl"), rows),
     ]
     .concat()
 }

@@ -46,6 +46,17 @@ pub(crate) fn block(centre: Vec3, half: Vec3) -> Vec<[Vec3; 3]> {
         .collect()
 }
 
+/// Thirty blocks strewn over a floor.
+pub(crate) fn strewn_blocks() -> Vec<[Vec3; 3]> {
+    let mut triangles = floor(20.0).to_vec();
+    let mut random = Random(5);
+    for _ in 0..30 {
+        let centre = random.vector() * Vec3::new(4.0, 1.0, 4.0) + Vec3::Y * 1.4;
+        triangles.extend(block(centre, Vec3::new(0.35, 0.2, 0.25)));
+    }
+    triangles
+}
+
 /// Straight overhead; full angle in degrees.
 pub(crate) fn overhead_sun(degrees: f32) -> AreaLight {
     AreaLight::Sun { direction_to_light: Vec3::Y, angular_diameter_radians: degrees.to_radians() }

@@ -14,13 +14,7 @@ struct Court {
 }
 
 fn court(size: [u32; 2]) -> Court {
-    let mut triangles = floor(20.0).to_vec();
-    let mut random = Random(5);
-    for _ in 0..30 {
-        let centre = random.vector() * Vec3::new(4.0, 1.0, 4.0) + Vec3::Y * 1.4;
-        triangles.extend(block(centre, Vec3::new(0.35, 0.2, 0.25)));
-    }
-    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let tracer = Tracer::new(&scene(&strewn_blocks())).expect("a scene");
     let light = AreaLight::Rect {
         centre: Vec3::new(2.1, 5.4, 1.6),
         half_u: Vec3::new(0.5, 0.1, 0.0),

@@ -112,13 +112,7 @@ fn odd_settings_are_made_even() {
 /// With 4,000 points the share itself is known to 0.35 %: 93 to 97 % is five times that.
 #[test]
 fn intervals_of_scanlines_hold_the_truth() {
-    let mut triangles = floor(20.0).to_vec();
-    let mut random = Random(5);
-    for _ in 0..30 {
-        let centre = random.vector() * Vec3::new(4.0, 1.0, 4.0) + Vec3::Y * 1.4;
-        triangles.extend(block(centre, Vec3::new(0.35, 0.2, 0.25)));
-    }
-    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let tracer = Tracer::new(&scene(&strewn_blocks())).expect("a scene");
     let points = tracer.primary(&view(Vec3::new(0.0, 5.0, 8.0), Vec3::ZERO, [720, 405])).points();
     let direction = Vec3::new(0.4, 1.0, 0.3).normalize();
     let lights = [

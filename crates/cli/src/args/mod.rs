@@ -1,8 +1,14 @@
 //! The command line.
 
+mod gate;
+mod parse;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use gate::{AcceptArgs, CompareArgs, FailOn, GateArgs, Plant};
+pub(crate) use parse::check_size;
+use parse::{parse_bias, parse_size, parse_tolerance};
 use std::path::PathBuf;
-use umbrage_shadows::{Bias, ConstantBias, ReceiverPlane};
+use umbrage_shadows::Bias;
 
 /// Scores real-time soft shadows against path-traced truth: error, banding, noise and swimming.
 #[derive(Parser, Debug)]
@@ -146,67 +152,6 @@ pub(crate) struct EvaluateArgs {
     pub(crate) truth: TruthArgs,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-}
-
-/// Faults that a gate has to find (docs/ci.md).
-#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Plant {
-    /// The shadow map is looked up half a texel off.
-    HalfTexel,
-    /// The frame in the middle of each window has no shadows.
-    BrokenFrame,
-    /// Variants take the light for 2 % smaller than it is.
-    NarrowPenumbra,
-}
-
-/// How the gate answers.
-#[derive(Args, Debug, Clone)]
-pub(crate) struct GateArgs {
-    /// Folder of baselines.
-    #[arg(long, value_name = "DIR", default_value = "reports/baselines")]
-    pub(crate) baselines: PathBuf,
-    /// What exits with 1.
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) fail_on: FailOn,
-}
-
-#[derive(ValueEnum, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum FailOn {
-    /// A score that got worse.
-    #[default]
-    Regression,
-    /// Also one that may have, and what the baseline does not know.
-    Warn,
-    /// Nothing.
-    Never,
-}
-
-#[derive(Args, Debug)]
-pub(crate) struct CompareArgs {
-    /// The baseline: a name under `--baselines`, a file, or the folder of a run.
-    pub(crate) base: String,
-    /// Folder of the run.
-    pub(crate) run: PathBuf,
-    /// Print gate.json to standard output, and nothing else there.
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// Where the report's pictures go: `file` (into the page) or `dir` (beside it).
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) report: ReportKind,
-    #[command(flatten)]
-    pub(crate) gate: GateArgs,
-}
-
-#[derive(Args, Debug)]
-pub(crate) struct AcceptArgs {
-    /// Folder of the run.
-    pub(crate) run: PathBuf,
-    /// Name of the baseline; that of the run's gate otherwise.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) name: Option<String>,
-    /// Folder of baselines.
-    #[arg(long, value_name = "DIR", default_value = "reports/baselines")]
-    pub(crate) baselines: PathBuf,
 }
 
 #[derive(ValueEnum, Clone, Copy, Debug, Default)]
@@ -358,55 +303,4 @@ pub(crate) enum Listed {
     Variants,
     Metrics,
     Adapters,
-}
-
-/// The largest texture of common adapters.
-const MAX_SIDE: u32 = 16_384;
-
-/// 7680 x 4320: a window of 16 frames and 4 seeds takes 256 bytes a pixel.
-const MAX_PIXELS: u64 = 7680 * 4320;
-
-fn parse_bias(text: &str) -> Result<Bias, String> {
-    let expected = "expected metres,texels,slope as in 0.001,0.5,5 (the slope may be `off`)";
-    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
-    let [constant, offset, slope] = parts[..] else { return Err(expected.into()) };
-    let number = |s: &str| s.parse::<f64>().ok().filter(|v| v.is_finite() && *v >= 0.0).ok_or(expected);
-    Ok(Bias {
-        constant: ConstantBias::World(number(constant)?),
-        normal_offset_texels: number(offset)?,
-        receiver_plane: match slope {
-            "off" => ReceiverPlane::Off,
-            _ => ReceiverPlane::On { max_slope: number(slope)? },
-        },
-    })
-}
-
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, as in 1920x1080")?;
-    let side = |s: &str| s.trim().parse::<u32>().map_err(|e| format!("\"{s}\" is no size: {e}"));
-    check_size((side(width)?, side(height)?))
-}
-
-/// A size that can be rendered: refused here, before truth takes all memory for it.
-pub(crate) fn check_size((width, height): (u32, u32)) -> Result<(u32, u32), String> {
-    if width == 0 || height == 0 {
-        return Err("a picture has at least one pixel a side".into());
-    }
-    if width.max(height) > MAX_SIDE {
-        return Err(format!("a picture has at most {MAX_SIDE} pixels a side"));
-    }
-    match u64::from(width) * u64::from(height) {
-        pixels if pixels > MAX_PIXELS => {
-            Err(format!("a picture has at most {MAX_PIXELS} pixels (8K), not {pixels}"))
-        }
-        _ => Ok((width, height)),
-    }
-}
-
-/// A standard error of V.
-fn parse_tolerance(text: &str) -> Result<f32, String> {
-    match text.parse::<f32>() {
-        Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
-        _ => Err("a standard error between 0 and 1, such as 0.002".into()),
-    }
 }

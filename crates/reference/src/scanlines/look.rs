@@ -1,0 +1,119 @@
+//! What one receiver sees of the light.
+
+use super::eight::LANES;
+use super::frame::{Frame, Turn};
+use super::groups::Desk;
+use super::lines::Ruling;
+use super::outline::{self, Edge, Outline};
+use crate::aim::{Aim, Elevation};
+use crate::rays;
+use crate::receiver::Receiver;
+use crate::samples::LightSamples;
+use crate::truth::{Method, Sight, Task};
+
+/// Covers what is hidden. Lit and hidden are exact: nothing is between, or one triangle is before the
+/// whole light.
+#[inline(always)]
+pub(super) fn look(
+    task: &Task,
+    (receiver, aim): (&Receiver, &Aim),
+    (frame, turn): (&Frame, &Turn),
+    (ruling, seed): (&Ruling, u64),
+    desk: &mut Desk,
+    last: &mut usize,
+) -> Sight {
+    let surfaces = &task.tracer.surfaces;
+    let lines = &mut desk.lines;
+    let mut drawn = false;
+    if aim.elevation(receiver.normal) == Elevation::Across {
+        ruling.fill(lines, frame, turn, seed);
+        drawn = true;
+        let [a, b, c] = frame.form(-receiver.normal);
+        let mut below = Outline::new();
+        below.add(turn, Edge { a, b, c });
+        below.cover(lines, frame);
+    }
+    if task.settings.method == Method::ScanlineRays {
+        if !drawn {
+            ruling.fill(lines, frame, turn, seed);
+        }
+        let hidden = |samples: &LightSamples| rays::blocked(surfaces, (receiver, aim), samples, 0);
+        lines.trace((frame, turn, aim), &mut desk.samples, hidden);
+        return Sight::Sampled;
+    }
+    // What hides the whole light comes before any sample, first of all the block that hid it from the
+    // neighbour.
+    let blocks = &desk.blocks;
+    desk.surveys.clear();
+    let count = blocks.blocks.len();
+    let first = if *last < count { *last } else { 0 };
+    for step in 0..=blocks.eights() {
+        let (eight, mut between) = match step {
+            0 => (first / LANES, u32::from(count > 0) << (first % LANES)),
+            _ => (step - 1, blocks.between(frame, step - 1)),
+        };
+        while between != 0 {
+            let at = eight * LANES + between.trailing_zeros() as usize;
+            between &= between - 1;
+            if step > 0 && at == first {
+                continue;
+            }
+            let block = &blocks.blocks[at];
+            let mut survey = block.survey(frame);
+            let mut doubtful = survey.doubtful;
+            while doubtful != 0 {
+                let lane = doubtful.trailing_zeros() as usize;
+                doubtful &= doubtful - 1;
+                if receiver.skips(block.slots[lane], &block.triangle(lane)) {
+                    survey.some &= !(1 << lane);
+                }
+            }
+            if survey.some & survey.whole != 0 {
+                *last = at;
+                return Sight::Hidden;
+            }
+            if survey.some != 0 {
+                desk.surveys.push((at, survey));
+            }
+        }
+    }
+    if desk.surveys.is_empty() {
+        return if drawn { Sight::Sampled } else { Sight::Lit };
+    }
+    if !drawn {
+        ruling.fill(lines, frame, turn, seed);
+    }
+    for (at, survey) in &desk.surveys {
+        let sides = survey.sides(frame, ruling, turn);
+        let mut some = survey.some;
+        while some != 0 {
+            let lane = some.trailing_zeros() as usize;
+            some &= some - 1;
+            let straddles = survey.straddle >> lane & 1 != 0;
+            if straddles && !frame.flat {
+                let slot = blocks.blocks[*at].slots[lane];
+                lines.trace((frame, turn, aim), &mut desk.samples, |samples| {
+                    rays::crosses(surfaces, (receiver, aim), samples, slot)
+                });
+                continue;
+            }
+            if straddles || sides.open >> lane & 1 != 0 {
+                let mut outline = Outline::new();
+                for edge in survey.edges(lane) {
+                    outline.add(turn, edge);
+                }
+                if straddles {
+                    outline.add(turn, survey.nearer(lane, frame.depth[0]));
+                }
+                outline.cover(lines, frame);
+            } else {
+                outline::cover(&sides, lane, lines, frame);
+            }
+        }
+        if lines.full() {
+            *last = *at;
+            break;
+        }
+    }
+    Sight::Sampled
+}
