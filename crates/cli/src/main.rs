@@ -14,6 +14,7 @@ mod output;
 mod progress;
 mod run;
 mod scenes;
+mod shell;
 mod suite;
 mod views;
 

@@ -35,6 +35,8 @@ fn a_regression_is_caught_shown_and_accepted() {
     evaluate(folder, "--out good --save-baseline main").ended_with(0);
     let size = std::fs::metadata(baseline(folder)).expect("a file").len();
     assert!(size < 50_000, "{size} bytes are too many to commit");
+    let text = std::fs::read_to_string(baseline(folder)).expect("text");
+    assert!(!text.contains("--out") && !text.contains("--cache"), "folders of one machine: {text}");
 
     let same = evaluate(folder, "--out same --baseline main").ended_with(0);
     assert!(same.stderr.contains("gate against main: 0 regressed, 0 improved"), "{}", same.stderr);

@@ -7,6 +7,7 @@ use crate::error::CliError;
 use crate::output::print;
 use crate::run::provenance::adapter_card;
 use crate::run::{Settings, evaluate};
+use crate::shell;
 use crate::suite::Plan;
 use std::path::{Path, PathBuf};
 use umbrage_report::{Baseline, Layout, write_report};
@@ -83,16 +84,5 @@ fn run_folder(name: &str, date: &str) -> PathBuf {
 
 /// The command to copy: the program's own name, not where it lies on this machine.
 pub(super) fn command_line() -> String {
-    let quoted = |argument: String| {
-        let plain = argument.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=+,:".contains(c));
-        if plain && !argument.is_empty() {
-            argument
-        } else {
-            format!("'{}'", argument.replace('\'', "'\\''"))
-        }
-    };
-    std::iter::once("umbrage".to_string())
-        .chain(std::env::args().skip(1).map(quoted))
-        .collect::<Vec<_>>()
-        .join(" ")
+    shell::line(std::iter::once("umbrage".to_string()).chain(std::env::args().skip(1)))
 }

@@ -5,6 +5,7 @@ use crate::args::{AcceptArgs, CompareArgs, FailOn, GateArgs, ReportKind};
 use crate::error::CliError;
 use crate::output::print;
 use crate::run::sums::FILE;
+use crate::shell;
 use std::path::{Path, PathBuf};
 use umbrage_metrics::Verdict;
 use umbrage_report::{
@@ -44,7 +45,9 @@ pub(super) fn save(run: &Path, name: &str, baselines: &Path) -> Result<PathBuf, 
             "\"{name}\" is no name of a baseline: letters, digits, - and _ are"
         )));
     }
-    let sums = Baseline::load(&run.join(FILE))?;
+    let mut sums = Baseline::load(&run.join(FILE))?;
+    // A baseline is committed: where its run lay is nobody's business.
+    sums.provenance.command = shell::without(&sums.provenance.command, &["--out", "--cache", "--baselines"]);
     std::fs::create_dir_all(baselines).map_err(CliError::file(baselines))?;
     let path = Baseline::path(baselines, name, &sums.provenance.adapter);
     sums.save(&path)?;
@@ -59,12 +62,12 @@ pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, 
     card.baseline = name.clone();
     let folder = match args.baselines.to_str() {
         Some("reports/baselines") | None => String::new(),
-        Some(other) => format!(" --baselines {other}"),
+        Some(other) => format!(" --baselines {}", shell::quoted(other)),
     };
-    card.accept = format!("umbrage accept {} --name {name}{folder}", run.display());
+    card.accept = format!("umbrage accept {} --name {name}{folder}", shell::quoted(&run.to_string_lossy()));
     let provenance = sums.provenance;
     for case in &mut card.cases {
-        case.reproduce = reproduce(case, &provenance.command, base);
+        case.reproduce = reproduce(case, &provenance.command);
     }
     let scores = Scorecard::load(&run.join("scorecard.json"))?;
     write_gate_crops(run, &mut card, &scores)?;
@@ -73,24 +76,12 @@ pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, 
 }
 
 /// The run's own command, narrowed down to one case.
-fn reproduce(case: &GateCase, command: &str, base: &str) -> Option<String> {
+fn reproduce(case: &GateCase, command: &str) -> Option<String> {
     let (scene, path) = (case.scene.as_ref()?, case.path.as_ref()?);
-    let mut words: Vec<&str> = Vec::new();
-    let mut all = command.split(' ');
-    while let Some(word) = all.next() {
-        match word {
-            "--scene" | "--path" | "--variant" | "--baseline" | "--save-baseline" | "--out" => {
-                all.next();
-            }
-            word if ["--scene=", "--path=", "--variant=", "--baseline=", "--save-baseline=", "--out="]
-                .iter()
-                .any(|flag| word.starts_with(flag)) => {}
-            word => words.push(word),
-        }
-    }
-    let narrowed = words.join(" ");
-    Some(format!("{narrowed} --scene {scene} --path {path} --variant {}", case.variant))
-        .filter(|_| !base.is_empty())
+    let whole = ["--scene", "--path", "--variant", "--baseline", "--save-baseline", "--out"];
+    let narrow = [("--scene", scene), ("--path", path), ("--variant", &case.variant)];
+    let narrow = narrow.map(|(flag, value)| format!(" {flag} {}", shell::quoted(value)));
+    Some(shell::without(command, &whole) + &narrow.concat())
 }
 
 /// By name, as a file, or the sums of another run; and what to call it.
