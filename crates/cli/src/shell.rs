@@ -11,7 +11,7 @@ pub(crate) fn quoted(word: &str) -> String {
     if plain && !word.is_empty() { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }
 
-/// A line of [`line`] without some flags and their values.
+/// A line of [`line()`] without some flags and their values.
 pub(crate) fn without(line: &str, flags: &[&str]) -> String {
     let mut kept = Vec::new();
     let mut all = words(line).into_iter();
@@ -26,7 +26,7 @@ pub(crate) fn without(line: &str, flags: &[&str]) -> String {
     self::line(kept)
 }
 
-/// The words that a line of [`line`] was made of.
+/// The words that a line of [`line()`] was made of.
 fn words(line: &str) -> Vec<String> {
     let (mut words, mut word, mut inside, mut any) = (Vec::new(), String::new(), false, false);
     let mut letters = line.chars();
