@@ -73,6 +73,10 @@ impl CliError {
             Self::Reference(ReferenceError::Device(_)) => {
                 Some("`--reference-on cpu` finds the same truth without a GPU".into())
             }
+            Self::Report(ReportError::NotComparable(_)) => Some(
+                "run with the baseline's settings, or make it again with `--save-baseline` if the change was meant"
+                    .into(),
+            ),
             Self::NothingScored(_) => {
                 Some("look at the pictures of the report; check the camera path and the light".into())
             }

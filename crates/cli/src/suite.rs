@@ -49,6 +49,8 @@ struct SuiteScene {
 pub(crate) struct Job {
     pub(crate) scene: Scene,
     pub(crate) paths: Vec<String>,
+    /// What is too small to matter here, by score.
+    gate: BTreeMap<String, MarginCard>,
     /// Made for a bare model: the user edits it for the next run.
     pub(crate) made_file: Option<SceneFile>,
 }
@@ -201,11 +203,8 @@ fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {
 /// The suite's margins; scenes by the name that they have in results.
 fn margins_of(file: &SuiteFile, jobs: &[Job]) -> Result<Margins, CliError> {
     let mut margins = Margins { all: file.gate.clone(), ..Margins::default() };
-    for (entry, job) in file.scene.iter().filter(|s| !s.gate.is_empty()).filter_map(|entry| {
-        let named = |job: &&Job| entry.name.file_stem().is_some_and(|stem| stem == job.scene.name.as_str());
-        Some((entry, jobs.iter().find(named)?))
-    }) {
-        margins.scenes.insert(job.scene.name.clone(), entry.gate.clone());
+    for job in jobs.iter().filter(|job| !job.gate.is_empty()) {
+        margins.scenes.insert(job.scene.name.clone(), job.gate.clone());
     }
     match margins.problem() {
         Some(problem) => Err(CliError::Usage(format!("[gate] of the suite \"{}\": {problem}", file.name))),
@@ -251,7 +250,7 @@ fn jobs_of(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<Job>, CliError> 
         if jobs.iter().any(|j| j.scene.content_hash() == scene.content_hash() && j.paths == paths) {
             continue;
         }
-        jobs.push(Job { scene, paths, made_file });
+        jobs.push(Job { scene, paths, gate: entry.gate.clone(), made_file });
     }
     match (jobs.is_empty(), args.scenes.first()) {
         (false, _) => Ok(jobs),

@@ -10,11 +10,12 @@ use crate::run::{Settings, evaluate};
 use crate::shell;
 use crate::suite::Plan;
 use std::path::{Path, PathBuf};
-use umbrage_report::{Baseline, Layout, write_report};
+use umbrage_report::{Layout, write_report};
 use umbrage_shadows::Gpu;
 
 pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     let plan = Plan::new(args)?;
+    args.save_baseline.as_deref().map_or(Ok(()), gate::check_name)?;
     let now = clock::now();
     let out = args.out.clone().unwrap_or_else(|| run_folder(&plan.name, &now.folder));
     let mut gpu = open_gpu(&args.view.gpu)?;
@@ -53,11 +54,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
 /// A baseline that is not there is said before the work, not after it.
 fn missing_baseline(args: &EvaluateArgs, gpu: &Gpu) -> Result<(), CliError> {
     let Some(name) = &args.baseline else { return Ok(()) };
-    let path = Baseline::path(&args.gate.baselines, name, &adapter_card(gpu));
-    match Path::new(name).exists() || path.exists() {
-        true => Ok(()),
-        false => Err(CliError::NoBaseline { name: name.clone(), path }),
-    }
+    gate::place_of(name, &adapter_card(gpu), &args.gate.baselines).map(|_| ())
 }
 
 fn pages(out: &Path, kind: ReportKind) -> Result<umbrage_report::Written, CliError> {

@@ -46,7 +46,10 @@ fn open_truth_gpu(on: ReferenceOn, wanted: &GpuArgs) -> Result<Option<TruthGpu>,
         (ReferenceOn::Auto, Err(ReferenceError::Device(error @ DeviceError::UnknownBackend { .. }))) => {
             return Err(ReferenceError::Device(error).into());
         }
-        (ReferenceOn::Auto, Err(_)) => None,
+        (ReferenceOn::Auto, Err(error)) => {
+            eprintln!("truth on: CPU (no GPU for it: {error})");
+            None
+        }
         (_, opened) => Some(opened?),
     };
     if let Some(adapter) = gpu.as_ref().map(TruthGpu::description) {

@@ -22,7 +22,7 @@ use measure::Measured;
 use std::path::PathBuf;
 use umbrage_metrics::Bootstrap;
 use umbrage_reference::{Cache, Finder, Tracer, TruthGpu};
-use umbrage_report::{RunWriter, Scorecard, WindowPictures};
+use umbrage_report::{RunWriter, SUMS, Scorecard, WindowPictures};
 use umbrage_shadows::{Bias, Gpu, Renderer};
 use window::Window;
 
@@ -92,7 +92,7 @@ pub(crate) fn evaluate(
     run.progress.finish();
     keep_made_files(plan, settings)?;
     let card = scorecard::assemble(plan, settings, (gpu, &scored, &costs), &run.bootstrap)?;
-    sums::of(plan, &card.provenance, &scored).save(&settings.out.join(sums::FILE))?;
+    sums::of(plan, &card.provenance, &scored).save(&settings.out.join(SUMS))?;
     let warnings = warnings(&scored);
     run.writer.finish(&card)?;
     if scored.iter().all(|s| s.window.coverage.counted == 0) {

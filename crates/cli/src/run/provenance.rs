@@ -23,11 +23,13 @@ pub(super) fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provena
         height: plan.sampling.size.1,
         frames: plan.sampling.window,
         seeds: plan.sampling.seeds,
+        first_seed: plan.sampling.first_seed,
         tile_px: TILE_PX,
         shadow_map_texels: settings.map_texels,
         truth: TruthCard {
             samples_per_half: plan.sampling.samples,
             basis_samples: plan.sampling.basis_samples,
+            tolerance: plan.sampling.tolerance,
             method: format!(
                 "scanlines: every triangle between point and light covers runs of samples on jittered lines{}",
                 on(settings)

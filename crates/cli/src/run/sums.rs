@@ -6,9 +6,6 @@ use umbrage_metrics::{Bootstrap, SumTable};
 use umbrage_report::{BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, Provenance};
 use umbrage_shadows::VariantId;
 
-/// Name in the folder of a run.
-pub(crate) const FILE: &str = "sums.json";
-
 /// The sums of every window that was scored.
 pub(super) fn of(plan: &Plan, provenance: &Provenance, scored: &[Scored]) -> Baseline {
     let mut baseline = Baseline {
