@@ -7,6 +7,7 @@
 mod assemble;
 mod builtin;
 mod camera;
+mod cameras;
 mod error;
 mod fitted;
 mod generators;
@@ -27,6 +28,10 @@ mod tests;
 
 pub use builtin::builtin_names;
 pub use camera::{Camera, CameraPath, PathFrame};
+pub use cameras::{
+    Axis, CameraFile, CamerasJson, Convention, ConventionJson, FrameCamera, FrameJson, Handedness,
+    MatrixOrder, Preset, VectorKind, cameras_schema,
+};
 pub use error::SceneError;
 pub use generators::Generator;
 pub use light::AreaLight;

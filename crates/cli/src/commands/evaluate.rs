@@ -70,7 +70,7 @@ pub(super) fn layout(kind: ReportKind) -> Layout {
 }
 
 /// Safe as a folder name whatever the suite is called.
-fn run_folder(name: &str, date: &str) -> PathBuf {
+pub(super) fn run_folder(name: &str, date: &str) -> PathBuf {
     let safe: String = name
         .chars()
         .map(|c| if c.is_ascii_alphanumeric() || "-_.+".contains(c) { c } else { '-' })

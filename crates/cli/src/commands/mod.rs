@@ -7,6 +7,7 @@ mod list;
 mod reference;
 mod render;
 mod report;
+mod score;
 
 use crate::args::{Arguments, Command, GpuArgs, ReferenceOn};
 use crate::error::CliError;
@@ -18,6 +19,7 @@ use umbrage_shadows::{AdapterChoice, Gpu};
 pub(crate) fn dispatch(arguments: &Arguments) -> Result<ExitCode, CliError> {
     match &arguments.command {
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Score(args) => score::run(args),
         Command::Compare(args) => gate::compare_runs(args),
         Command::Accept(args) => gate::accept(args),
         Command::Claims(args) => claims::run(args),

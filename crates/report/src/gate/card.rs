@@ -224,8 +224,7 @@ mod tests {
     /// A threshold that is copied from the page must not fail by its last digit.
     #[test]
     fn thresholds_are_rounded_up() {
-        let pairs =
-            [(0.012341, "0.0124"), (1.0, "1.00"), (0.0, "0"), (2.345e-6, "2.35e-6"), (99.91, "100")];
+        let pairs = [(0.012341, "0.0124"), (1.0, "1.00"), (0.0, "0"), (2.345e-6, "2.35e-6"), (99.91, "100")];
         for (value, text) in pairs {
             assert_eq!(short_up(value), text);
             assert!(short_up(value).parse::<f64>().expect("a number") >= value);
