@@ -91,20 +91,34 @@ impl Picture {
     /// # Errors
     /// Neither; the message lists the channels that are there.
     pub fn luminance(&self) -> Result<Image<f32>, String> {
-        let named = |name: &str| self.layers.iter().find(|l| l.0 == name).map(|l| &l.1);
-        match (self.layers.as_slice(), named("R"), named("G"), named("B")) {
-            (_, Some(r), Some(g), Some(b)) => Ok(Image::from_fn(r.width(), r.height(), |x, y| {
+        match (self.layers.as_slice(), self.colours()) {
+            (_, Some([r, g, b])) => Ok(Image::from_fn(r.width(), r.height(), |x, y| {
                 0.2126 * r.at(x, y) + 0.7152 * g.at(x, y) + 0.0722 * b.at(x, y)
             })),
-            ([only], ..) => Ok(only.1.clone()),
+            ([only], _) => Ok(only.1.clone()),
             _ => Err(format!("has no channels R, G and B; it has {}", self.names())),
         }
     }
 
-    /// Linear depth, where there is a channel of it.
+    /// R, G and B: bare, or of the first layer that is called a picture ("ViewLayer.Combined.R").
+    fn colours(&self) -> Option<[&Image<f32>; 3]> {
+        let of = |prefix: &str| {
+            let channel = |c: &str| self.layers.iter().find(|l| l.0 == format!("{prefix}{c}")).map(|l| &l.1);
+            Some([channel("R")?, channel("G")?, channel("B")?])
+        };
+        let prefixes = self.layers.iter().filter_map(|l| l.0.strip_suffix('R')).filter(|p| p.ends_with('.'));
+        let mut combined =
+            prefixes.filter(|p| ends_with(p.trim_end_matches('.'), &["combined", "beauty", "rgba"]));
+        of("").or_else(|| combined.find_map(of))
+    }
+
+    /// Linear depth, where there is a channel of it: "Z", "depth.Z", "ViewLayer.Depth.V".
     pub fn depth(&self) -> Option<&Image<f32>> {
-        let names = ["depth.Z", "depth.V", "Depth.Z", "Depth.V", "Z", "depth"];
-        names.iter().find_map(|name| self.layers.iter().find(|l| l.0 == *name)).map(|l| &l.1)
+        let is_depth = |name: &str| {
+            let layer = name.strip_suffix(".Z").or_else(|| name.strip_suffix(".V")).unwrap_or(name);
+            name == "Z" || ends_with(layer, &["depth"])
+        };
+        self.layers.iter().find(|l| is_depth(&l.0)).map(|l| &l.1)
     }
 
     fn names(&self) -> String {
@@ -130,6 +144,11 @@ impl Transfer {
             Self::Srgb => 2.4 / 1.055 * light.powf(1.4 / 2.4),
         }
     }
+}
+
+/// Whether the last part of a dotted name is one of these, in any case.
+fn ends_with(name: &str, words: &[&str]) -> bool {
+    name.rsplit('.').next().is_some_and(|last| words.iter().any(|w| last.eq_ignore_ascii_case(w)))
 }
 
 fn same(a: &Image<f32>, b: &Image<f32>) -> bool {
@@ -158,6 +177,20 @@ mod tests {
         assert!(unsure.contains("B, G, R") && unsure.contains("--channel"), "{unsure}");
         let missing = colours.shadow(Some("V")).expect_err("missing");
         assert!(missing.contains("no channel V") && missing.contains("B, G, R"), "{missing}");
+    }
+
+    #[test]
+    fn layers_of_other_programs_are_known() {
+        let names =
+            ["ViewLayer.Combined.A", "ViewLayer.Combined.B", "ViewLayer.Combined.G", "ViewLayer.Combined.R"];
+        let mut layers: Vec<(&str, f32)> = names.iter().map(|n| (*n, 0.5)).collect();
+        layers.push(("ViewLayer.Depth.Z", 7.0));
+        let blender = picture(&layers);
+        assert_eq!(blender.luminance().map(|i| *i.at(0, 0)), Ok(0.5));
+        assert_eq!(blender.depth().map(|i| *i.at(0, 0)), Some(7.0));
+        assert_eq!(picture(&[("Z", 3.0), ("R", 1.0)]).depth().map(|i| *i.at(0, 0)), Some(3.0));
+        assert_eq!(picture(&[("FinalImage.R", 1.0)]).depth(), None);
+        assert!(picture(&[("x.R", 1.0), ("x.G", 1.0), ("x.B", 1.0)]).luminance().is_err());
     }
 
     #[test]
