@@ -126,8 +126,8 @@ def set_up(scene, options):
         scene.cycles.use_adaptive_sampling = False
         scene.cycles.use_denoising = False
         scene.cycles.max_bounces = 0
-        # Truth is the shadow at each pixel's centre.
-        scene.cycles.pixel_filter_type = "BOX"
+        # Truth is the shadow at each pixel's centre. (A box is a pixel wide whatever its width is set to.)
+        scene.cycles.pixel_filter_type = "BLACKMAN_HARRIS"
         scene.cycles.filter_width = 0.01
     else:
         scene.eevee.taa_render_samples = options.samples

@@ -24,8 +24,8 @@ impl Handed {
         let frames: Vec<usize> = (0..COUNT).map(|i| FIRST + 10 * i).collect();
         for (number, frame) in frames.iter().enumerate() {
             let line = format!(
-                "reference colonnade --path P1 --frame {frame} --size {SIZE} --samples 128 --reference-on cpu --out \
-                 truth.{number:04}.exr"
+                "reference colonnade --path P1 --frame {frame} --size {SIZE} --samples 128 --only-v --reference-on cpu \
+                 --out truth.{number:04}.exr"
             );
             run(&mut umbrage(home.path(), &line)).ended_with(0);
         }

@@ -7,19 +7,37 @@ use crate::output::print;
 use crate::run::truths::reached_note;
 use crate::scenes::find_scene;
 use crate::views::{frame_of, path_of, view_of};
+use std::path::{Path, PathBuf};
 use umbrage_frame::{Image, Layer, write_exr};
 use umbrage_reference::{
     Finder, MOST_ON_SCANLINES, Method, PrimaryHits, RadianceSettings, Tracer, TruthSettings,
 };
+use umbrage_scene::PathFrame;
 
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     check_samples(args)?;
     let on = wanted_place(args)?;
     let (scene, _) = find_scene(&args.scene)?;
     let path = path_of(&scene, &args.view.paths)?;
-    let frame = frame_of(path, args.frame)?;
-    let view = view_of(frame, args.view.size.unwrap_or((1280, 720)));
+    let numbers = args.frame..args.frame.saturating_add(args.frames);
+    // Names that are wrong are wrong before the first hour of work.
+    let frames = numbers.map(|n| Ok((n, frame_of(path, n)?))).collect::<Result<Vec<_>, CliError>>()?;
     let tracer = Tracer::new(&scene)?;
+    let gpu = open_truth_gpu(on, &args.view.gpu)?;
+    let mut finder = Finder::new(&tracer, gpu.as_ref())?;
+    for (number, frame) in frames {
+        let layers = layers(args, &mut finder, frame)?;
+        let file = numbered(&args.out, (args.frames > 1).then_some(number));
+        write_exr(&file, &layers)?;
+        print(&file.display().to_string())?;
+    }
+    Ok(())
+}
+
+/// Everything that is known of a frame.
+fn layers(args: &ReferenceArgs, finder: &mut Finder<'_>, frame: &PathFrame) -> Result<Vec<Layer>, CliError> {
+    let view = view_of(frame, args.view.size.unwrap_or((1280, 720)));
+    let tracer = finder.tracer();
     let hits = tracer.primary(&view);
     let settings = TruthSettings {
         samples: args.samples,
@@ -33,18 +51,19 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
         ..TruthSettings::default()
     };
     let points = hits.points();
-    let gpu = open_truth_gpu(on, &args.view.gpu)?;
-    let truth = Finder::new(&tracer, gpu.as_ref())?.truth(&points, &frame.light, &settings)?;
-    let irradiance = tracer.irradiance(&points, &frame.light, &settings);
+    let truth = finder.truth(&points, &frame.light, &settings)?;
     let mut layers = surfaces(&hits);
     let mut add = |name: &str, values: &[f32]| layers.push((name.to_string(), spread(&hits, values)));
     add("reference.V", &truth.mean);
     add("half1.V", &truth.halves[0]);
     add("half2.V", &truth.halves[1]);
     add("variance.V", &truth.variance);
-    add("irradiance.E", &irradiance.shadowed);
-    add("irradiance.E0", &irradiance.unshadowed);
-    add("irradiance.R", &irradiance.ratio);
+    if !args.only_v {
+        let irradiance = tracer.irradiance(&points, &frame.light, &settings);
+        add("irradiance.E", &irradiance.shadowed);
+        add("irradiance.E0", &irradiance.unshadowed);
+        add("irradiance.R", &irradiance.ratio);
+    }
     if let Some(tolerance) = args.tolerance {
         add("samples.V", &truth.samples.iter().map(|&s| s as f32).collect::<Vec<_>>());
         eprintln!("{}", reached_note(&truth.reached(tolerance), tolerance));
@@ -56,8 +75,14 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
             ["R", "G", "B"].into_iter().enumerate().map(|(k, name)| (name.to_string(), beauty.map(|v| v[k]))),
         );
     }
-    write_exr(&args.out, &layers)?;
-    print(&args.out.display().to_string())
+    Ok(layers)
+}
+
+/// "truth.exr" of frame 7 is "truth.0007.exr".
+fn numbered(out: &Path, number: Option<u32>) -> PathBuf {
+    let Some(number) = number else { return out.to_owned() };
+    let end = out.extension().map_or_else(|| "exr".into(), |e| e.to_string_lossy());
+    out.with_extension(format!("{number:04}.{end}"))
 }
 
 /// Other methods are the CPU's.

@@ -12,7 +12,7 @@ pub(super) const LIGHT_LEAK: MetricInfo = MetricInfo {
     range: SHARE,
     direction: LowerIsBetter,
     definition: "Mean light where the truth is full shadow.",
-    formula: "mean of v over the umbra (g at most 1/512, more than a pixel away from any penumbra)",
+    formula: "mean of v over the umbra (g at most 1/512, more than a pixel away from any penumbra); of v - g where truth is each frame's own",
     source: UMBRAGE,
     blind_spot: "A mean: a bright crack in a large umbra hides; see p99 and the worst tile.",
 };
@@ -24,7 +24,7 @@ pub(super) const FALSE_SHADOW: MetricInfo = MetricInfo {
     range: SHARE,
     direction: LowerIsBetter,
     definition: "Mean darkness where the truth is fully lit: acne, and penumbrae that reach too far.",
-    formula: "mean of 1 - v over the lit region (g at least 511/512, more than a pixel away from any penumbra)",
+    formula: "mean of 1 - v over the lit region (g at least 511/512, more than a pixel away from any penumbra); of g - v where truth is each frame's own",
     source: UMBRAGE,
     blind_spot: "A mean: a patch of acne in a large lit floor hides; see p99 and the worst tile.",
 };
