@@ -21,7 +21,7 @@ pub enum Region {
 
 /// Below this visibility a point is dark, above its complement it is lit: 1 of 512 samples, half of
 /// what one sample of the smallest allowed basis (1024) can say.
-pub(crate) const EDGE: f32 = 1.0 / 512.0;
+const EDGE: f32 = 1.0 / 512.0;
 
 /// The region of every point. A point that the light's motion takes from lit to umbra is penumbra.
 ///

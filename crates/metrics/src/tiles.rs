@@ -5,7 +5,6 @@
 
 use crate::error::expect_length;
 use crate::estimator::{Parts, Series};
-use crate::regions::EDGE;
 use crate::{MetricsError, Panel, PanelTruth, Tile, Tiling};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -127,16 +126,11 @@ fn outside(
     let mut sums = Outside { points: points.len() as u32, wrong: 0.0, squared: series.sums().squared };
     for (index, &point) in points.iter().enumerate() {
         let first = f64::from(panel.at(0, 0, point as usize));
-        // A truth of each frame is that of pixels, which may lie beside a narrow shadow's anchor.
-        let true_value = |frame: usize| {
-            let [a, b] = [0, 1].map(|half| truth.half(half, frame, point as usize));
-            let here = 0.5 * (a + b);
-            if truth.frames == 1 || (f64::from(here) - flat).abs() <= f64::from(EDGE) {
-                flat
-            } else {
-                f64::from(here)
-            }
-        };
+        // A truth of each frame is that of pixels, which may lie beside a narrow shadow's anchor: in the middle
+        // frame the anchor is the pixel's centre.
+        let mean =
+            |frame| f64::from(truth.half(0, frame, point as usize) + truth.half(1, frame, point as usize));
+        let true_value = |frame: usize| flat + 0.5 * (mean(frame) - mean(panel.frames / 2));
         let frames = series.seed_rows(index).enumerate();
         let sum: f64 = frames
             .map(|(frame, row)| row.iter().map(|v| wrong(v + first, true_value(frame))).sum::<f64>())
