@@ -23,9 +23,9 @@ mod picture;
 mod rays;
 mod spec;
 mod suggest;
-mod texture;
 #[cfg(test)]
 mod tests;
+mod texture;
 
 pub use builtin::builtin_names;
 pub use camera::{Camera, CameraPath, PathFrame};

@@ -86,7 +86,12 @@ impl<F: Find> WithSimd for Group<'_, F> {
         let receivers: Vec<Receiver> =
             order.iter().map(|&i| Receiver::new(surfaces, points, i as usize)).collect();
         if task.settings.method != Method::ScanlineRays {
-            volume::gather(surfaces, task.light, &receivers, (&mut desk.open, &mut desk.blocks, &mut desk.cards));
+            volume::gather(
+                surfaces,
+                task.light,
+                &receivers,
+                (&mut desk.open, &mut desk.blocks, &mut desk.cards),
+            );
         }
         let mut last = 0;
         let mut found = Vec::with_capacity(order.len());

@@ -1,11 +1,11 @@
 //! What one receiver sees of the light.
 
+use super::blocks::{Block, Sides, Survey};
 use super::eight::LANES;
 use super::frame::{Frame, Turn};
 use super::groups::Desk;
-use super::lines::Ruling;
-use super::blocks::{Block, Sides, Survey};
 use super::lines::Lines;
+use super::lines::Ruling;
 use super::outline::{self, Edge, Outline};
 use super::veil::Veil;
 use crate::aim::{Aim, Elevation};
@@ -28,9 +28,8 @@ pub(super) fn look(
 ) -> Sight {
     let sight = past_whole(task, (receiver, aim), (frame, turn), (ruling, seed), desk, last);
     match &task.tracer.surfaces.cutouts {
-        Some(cutouts) if !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => {
-            Arch::new().dispatch(Veil { task, cutouts, receiver, aim, frame, turn, ruling, seed, desk, sight })
-        }
+        Some(cutouts) if !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => Arch::new()
+            .dispatch(Veil { task, cutouts, receiver, aim, frame, turn, ruling, seed, desk, sight }),
         _ => sight,
     }
 }

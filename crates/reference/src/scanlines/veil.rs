@@ -57,11 +57,15 @@ impl WithSimd for Veil<'_> {
                     let slot = block.slots[lane];
                     desk.before.clear();
                     desk.before.extend(desk.lines.rows.iter().map(|row| row.hidden));
-                    cover(task, (receiver, aim), (frame, turn), (&survey, &sides, lane, slot), (
-                        &mut desk.lines,
-                        &mut desk.samples,
-                    ));
-                    if let Some(pattern) = cutouts.pattern(slot, surfaces.corners_f64(slot), (receiver, aim)) {
+                    cover(
+                        task,
+                        (receiver, aim),
+                        (frame, turn),
+                        (&survey, &sides, lane, slot),
+                        (&mut desk.lines, &mut desk.samples),
+                    );
+                    if let Some(pattern) = cutouts.pattern(slot, surfaces.corners_f64(slot), (receiver, aim))
+                    {
                         let per_row = desk.lines.per_row;
                         for (row, before) in desk.lines.rows.iter_mut().zip(&desk.before) {
                             for k in 0..REPLICATES {

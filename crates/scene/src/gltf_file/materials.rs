@@ -69,7 +69,8 @@ impl Materials {
             match pictures.get(info.texture().source().index()) {
                 Ok(picture) => {
                     made.texture = Some(picture.texture(wrap));
-                    made.mask = is_cut_out.then(|| picture.mask(wrap, Opacity::Alpha { factor: alpha, cutoff }));
+                    made.mask =
+                        is_cut_out.then(|| picture.mask(wrap, Opacity::Alpha { factor: alpha, cutoff }));
                 }
                 Err(message) if is_cut_out => {
                     return Err(format!(
@@ -103,7 +104,8 @@ impl Pictures<'_> {
         let image = &self.document.as_json().images[index];
         if let Some(uri) = &image.uri {
             let shown = if uri.starts_with("data:") { format!("image {index}") } else { uri.clone() };
-            return Picture::decode(&read_uri(uri, self.folder)?).map_err(|error| format!("{shown}: {error}"));
+            return Picture::decode(&read_uri(uri, self.folder)?)
+                .map_err(|error| format!("{shown}: {error}"));
         }
         let view = image.buffer_view.and_then(|view| self.document.views().nth(view.value()));
         let bytes = view.and_then(|view| self.buffers.view(&view));

@@ -42,7 +42,9 @@ pub(super) fn add(
             None => Vec::new(),
         };
         if layouts[material].is_some() && uvs.is_empty() {
-            model.notes.push(format!("object '{name}' has a texture but no place in it: its first texel is used"));
+            model
+                .notes
+                .push(format!("object '{name}' has a texture but no place in it: its first texel is used"));
         }
         for world_from_mesh in &places {
             let place = |p: &[f64]| world_from_mesh.transform_point3(DVec3::new(p[0], p[1], p[2]));

@@ -15,8 +15,8 @@ mod tests;
 
 pub(crate) use animation::CameraTrack;
 
-use crate::model::Model;
 use crate::SceneError;
+use crate::model::Model;
 use accessor::Buffers;
 use gltf::json::Root;
 use gltf::json::validation::Checked;
@@ -47,8 +47,7 @@ fn model_from(bytes: &[u8], folder: &Path) -> Result<Model, String> {
     let mut materials = Materials::read(&document, &buffers, folder)?;
     let mut notes = notes(&document);
     notes.append(&mut materials.notes);
-    let mut model =
-        Model { materials: std::mem::take(&mut materials.all), notes, ..Model::default() };
+    let mut model = Model { materials: std::mem::take(&mut materials.all), notes, ..Model::default() };
     let nodes = nodes::placed(&document)?;
     for (at, placed) in nodes.iter().enumerate() {
         mesh::add(&mut model, placed, (&document, &buffers), &materials.layouts)?;
