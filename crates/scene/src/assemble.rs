@@ -46,7 +46,15 @@ pub(crate) fn assemble(
         ));
     }
     let lights = lights_from(&file.lights, origin, path)?;
-    let surroundings = Surroundings { file: path, model: &model, origin, bounds, light: lights[0] };
+    let scored = file.scored_light;
+    let Some(&light) = lights.get(scored) else {
+        let count = lights.len();
+        return Err(SceneError::value(
+            path,
+            format!("there is no light {}: lights 1 to {count}", scored + 1),
+        ));
+    };
+    let surroundings = Surroundings { file: path, model: &model, origin, bounds, light };
     let paths = paths_from(file, &surroundings)?;
     let shadow_region = region_from(file.shadow_region, bounds, origin, path)?;
     let mut scene = Scene {
@@ -60,8 +68,9 @@ pub(crate) fn assemble(
         origin,
         notes,
     };
-    let more = notes::about(&scene);
+    let more = notes::about(&scene, scored);
     scene.notes.extend(more);
+    scene.lights[..=scored].rotate_right(1);
     Ok(scene)
 }
 

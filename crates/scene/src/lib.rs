@@ -52,7 +52,7 @@ pub struct Scene {
     pub geometry: Geometry,
     /// Diffuse materials; never empty.
     pub materials: Vec<Material>,
-    /// Area lights; never empty. The first is the one that is scored unless told otherwise.
+    /// Area lights; never empty. The first is the one that is scored.
     pub lights: Vec<AreaLight>,
     /// Named camera paths; never empty.
     pub paths: Vec<CameraPath>,

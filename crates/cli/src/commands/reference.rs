@@ -1,11 +1,11 @@
 //! `umbrage reference`: ground truth of one frame to EXR.
 
-use super::open_truth_gpu;
+use super::{check_masks, open_truth_gpu};
 use crate::args::{MethodArg, ReferenceArgs, ReferenceOn};
 use crate::error::CliError;
 use crate::output::print;
 use crate::run::window::reached_note;
-use crate::scenes::find_scene;
+use crate::scenes::{find_lit_scene, only_light};
 use crate::views::{frame_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
 use umbrage_reference::{
@@ -15,7 +15,8 @@ use umbrage_reference::{
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     check_samples(args)?;
     let on = wanted_place(args)?;
-    let (scene, _) = find_scene(&args.scene)?;
+    let (scene, _) = find_lit_scene(&args.scene, only_light(&args.view.lights)?)?;
+    check_masks(on, [&scene])?;
     let path = path_of(&scene, &args.view.paths)?;
     let frame = frame_of(path, args.frame)?;
     let view = view_of(frame, args.view.size.unwrap_or((1280, 720)));
