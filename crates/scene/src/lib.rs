@@ -7,6 +7,8 @@
 mod assemble;
 mod builtin;
 mod camera;
+#[cfg(test)]
+mod cutout_tests;
 mod error;
 mod fitted;
 mod generators;

@@ -40,8 +40,10 @@ fn model_from(bytes: &[u8], folder: &Path) -> Result<Model, String> {
     check_header(bytes)?;
     let Gltf { document, blob } =
         Gltf::from_slice_without_validation(bytes).map_err(|error| error.to_string())?;
-    let root = document.into_json();
+    let mut root = document.into_json();
     check_references(&root)?;
+    // The gltf crate has its own, shorter list of those that it knows.
+    root.extensions_required.clear();
     let document = Document::from_json(root).map_err(|error| error.to_string())?;
     let buffers = Buffers::read(&document, blob, folder)?;
     let mut materials = Materials::read(&document, &buffers, folder)?;
