@@ -206,18 +206,11 @@ fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {
 /// The suite's margins; scenes by the name that they have in results.
 fn margins_of(file: &SuiteFile, jobs: &[Job]) -> Result<Margins, CliError> {
     let mut margins = Margins { all: file.gate.clone(), ..Margins::default() };
-    for (entry, job) in file
-        .scene
-        .iter()
-        .filter(|s| !s.gate.is_empty())
-        .filter_map(|entry| {
-            let named =
-                move |job: &&Job| entry.name.file_stem().is_some_and(|stem| stem == job.family.as_str());
-            Some(jobs.iter().filter(named).map(move |job| (entry, job)))
-        })
-        .flatten()
-    {
-        margins.scenes.insert(job.scene.name.clone(), entry.gate.clone());
+    for entry in file.scene.iter().filter(|s| !s.gate.is_empty()) {
+        let named = |job: &&Job| entry.name.file_stem().is_some_and(|stem| stem == job.family.as_str());
+        for job in jobs.iter().filter(named) {
+            margins.scenes.insert(job.scene.name.clone(), entry.gate.clone());
+        }
     }
     match margins.problem() {
         Some(problem) => Err(CliError::Usage(format!("[gate] of the suite \"{}\": {problem}", file.name))),

@@ -3,12 +3,13 @@
 //! A function of its own, compiled for wide registers by itself: scenes without masks never come here,
 //! and their code stays as it is.
 
+use super::eight::LANES;
 use super::frame::{Frame, Turn};
 use super::groups::Desk;
-use super::lines::{REPLICATES, Ruling};
-use super::look::{cover, without_own};
+use super::lines::{Lines, REPLICATES, Ruling};
+use super::look::{cover, leave_own};
 use crate::aim::Aim;
-use crate::cutouts::Cutouts;
+use crate::cutouts::{Cutouts, Pattern};
 use crate::receiver::Receiver;
 use crate::truth::{Sight, Task};
 use pulp::{Simd, WithSimd};
@@ -38,10 +39,11 @@ impl WithSimd for Veil<'_> {
         for eight in 0..desk.cards.eights() {
             let mut between = desk.cards.between(frame, eight);
             while between != 0 {
-                let at = eight * super::eight::LANES + between.trailing_zeros() as usize;
+                let at = eight * LANES + between.trailing_zeros() as usize;
                 between &= between - 1;
                 let block = desk.cards.blocks[at];
-                let survey = without_own(block.survey(frame), &block, receiver);
+                let mut survey = block.survey(frame);
+                leave_own(&mut survey, &block, receiver);
                 if survey.some == 0 {
                     continue;
                 }
@@ -64,21 +66,9 @@ impl WithSimd for Veil<'_> {
                         (&survey, &sides, lane, slot),
                         (&mut desk.lines, &mut desk.samples),
                     );
-                    if let Some(pattern) = cutouts.pattern(slot, surfaces.corners_f64(slot), (receiver, aim))
-                    {
-                        let per_row = desk.lines.per_row;
-                        for (row, before) in desk.lines.rows.iter_mut().zip(&desk.before) {
-                            for k in 0..REPLICATES {
-                                let mut fresh = row.hidden[k] & !before[k] & row.inside[k];
-                                while fresh != 0 {
-                                    let i = fresh.trailing_zeros();
-                                    fresh &= fresh - 1;
-                                    let along = 2.0 * (i as f32 + row.shift.0[k]) / per_row - 1.0;
-                                    let place = frame.place(turn, along, [row.y.0[k], row.cos.0[k]]);
-                                    row.hidden[k] &= !(u32::from(!pattern.is_there(place)) << i);
-                                }
-                            }
-                        }
+                    let corners = surfaces.corners_f64(slot);
+                    if let Some(pattern) = cutouts.pattern(slot, corners, (receiver, aim)) {
+                        uncover(&mut desk.lines, &desk.before, (frame, turn), &pattern);
                     }
                 }
                 if desk.lines.full() {
@@ -87,5 +77,27 @@ impl WithSimd for Veil<'_> {
             }
         }
         sight
+    }
+}
+
+/// Shows again what was hidden since `before` where the surface is not there.
+#[inline(always)]
+fn uncover(
+    lines: &mut Lines,
+    before: &[[u32; REPLICATES]],
+    (frame, turn): (&Frame, &Turn),
+    pattern: &Pattern,
+) {
+    for (row, before) in lines.rows.iter_mut().zip(before) {
+        for k in 0..REPLICATES {
+            let mut fresh = row.hidden[k] & !before[k] & row.inside[k];
+            while fresh != 0 {
+                let i = fresh.trailing_zeros();
+                fresh &= fresh - 1;
+                let along = 2.0 * (i as f32 + row.shift.0[k]) / lines.per_row - 1.0;
+                let place = frame.place(turn, along, [row.y.0[k], row.cos.0[k]]);
+                row.hidden[k] &= !(u32::from(!pattern.is_there(place)) << i);
+            }
+        }
     }
 }
