@@ -203,3 +203,24 @@ fn a_grey_map_d_is_white_where_the_surface_is() {
     let scene = Scene::load(&folder.path().join("l.obj")).expect("a scene");
     assert!(!is_there(&scene, 0.2, 0.5) && is_there(&scene, 0.7, 0.5));
 }
+
+/// Lossy, but a white picture with a black half stays one.
+#[test]
+fn jpeg_is_read() {
+    let grey = image::RgbImage::from_fn(16, 8, |x, _| image::Rgb([if x < 8 { 0 } else { 255 }; 3]));
+    let mut bytes = Cursor::new(Vec::new());
+    grey.write_to(&mut bytes, ImageFormat::Jpeg).expect("encoded");
+    let picture = crate::picture::Picture::decode(&bytes.into_inner()).expect("decoded");
+    let mask = picture.mask([crate::Wrap::Repeat; 2], crate::picture::Opacity::Dissolve);
+    assert!(!mask.is_opaque(DVec2::new(0.2, 0.5)) && mask.is_opaque(DVec2::new(0.8, 0.5)));
+}
+
+#[test]
+fn lights_of_a_file_are_left_out_with_a_note() {
+    let mut document = document();
+    document["extensions"] =
+        json!({ "KHR_lights_punctual": { "lights": [{ "type": "point", "color": [1.0, 1.0, 1.0] }] } });
+    document["nodes"][0]["extensions"] = json!({ "KHR_lights_punctual": { "light": 0 } });
+    let notes = load(&document).expect("a scene").notes;
+    assert!(notes.iter().any(|note| note.starts_with("1 lights of the file")), "{notes:?}");
+}

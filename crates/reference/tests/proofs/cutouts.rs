@@ -1,6 +1,6 @@
 //! Cut-out surfaces: closed forms, and the ways to the truth against each other.
 
-use crate::agreement::{assert_ties_only, lights};
+use crate::agreement::{assert_ties_only, differences, lights};
 use crate::common::*;
 use glam::{Vec2, Vec3};
 use umbrage_reference::{GroundTruth, Method, Points, Tracer};
@@ -148,4 +148,25 @@ fn masks_are_part_of_the_key() {
     let hash = |mask| leafy(mask).content_hash();
     assert_ne!(hash(checker(8)), hash(checker(4)));
     assert_ne!(hash(checker(8)), scene(&leaves()).content_hash());
+}
+
+/// A tree of 260 twigs and a trellis, with as many ties as the standard scenes are allowed.
+#[test]
+fn the_ways_to_the_truth_agree_on_a_tree() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/leaves");
+    let scene = Scene::load(&folder).expect("a scene");
+    assert!(scene.has_masks());
+    let tracer = Tracer::new(&scene).expect("a scene");
+    let points = tracer.primary(&view_of(&scene.paths[0].frames[0].camera, [64, 36])).points();
+    for light in &scene.lights {
+        for pair in [[Method::Rays, Method::Shafts], [Method::ScanlineRays, Method::Scanlines]] {
+            let both = pair.map(|method| tracer.truth(&points, light, &settings(128, method)));
+            let found = differences(&both);
+            let (count, worst) = (found.iter().filter(|&&d| d > 0).count(), found.iter().max());
+            assert!(
+                count <= points.len() / 100 && worst <= Some(&3),
+                "{pair:?}: {count} differ, by up to {worst:?}"
+            );
+        }
+    }
 }

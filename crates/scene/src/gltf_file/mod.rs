@@ -21,6 +21,7 @@ use accessor::Buffers;
 use gltf::json::Root;
 use gltf::json::validation::Checked;
 use gltf::material::AlphaMode;
+use gltf::mesh::Semantic;
 use gltf::{Document, Gltf};
 use materials::Materials;
 use std::path::Path;
@@ -100,8 +101,15 @@ fn is_known(extension: &str) -> bool {
 fn notes(document: &Document) -> Vec<String> {
     let translucent = document.materials().filter(|m| m.alpha_mode() == AlphaMode::Blend).count();
     let moved = document.nodes().filter(|n| n.skin().is_some() || n.weights().is_some()).count();
+    let lights = document.nodes().filter(|n| n.light().is_some()).count();
+    let coloured = document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
+    let cut_by_vertex = coloured.filter(|primitive| {
+        primitive.material().alpha_mode() == AlphaMode::Mask && primitive.get(&Semantic::Colors(0)).is_some()
+    });
     let all = [
         (translucent, "materials are translucent (BLEND) in the file, opaque here"),
+        (cut_by_vertex.count(), "cut-out parts have vertex colours, whose alpha is not read"),
+        (lights, "lights of the file have no size and are left out: [[light]] in scene.toml gives one"),
         (moved, "nodes have a skin or morph targets and stand as they were modelled"),
     ];
     all.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect()

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use umbrage_frame::{Image, View};
 use umbrage_scene::{AlphaMask, AreaLight, Camera, Scene, Wrap};
-use umbrage_shadows::{Calibration, Dump, Renderer, Seeding, VARIANTS, VariantId};
+use umbrage_shadows::{Calibration, Dump, Pass, Renderer, Seeding, VARIANTS, VariantId};
 
 /// Rays through places of a picture (in texels), such that the ray's parameter is linear depth.
 pub(crate) struct Caster {
@@ -186,6 +186,30 @@ fn cut_out_surfaces_equal_a_ray_cast() {
         let scene = still_life::leafy(still_life::leaf(wrap));
         for light in [still_life::sun(), still_life::sphere()] {
             check(&scene, light, (hard(), 4000));
+        }
+    }
+}
+
+/// Cut-out triangles are drawn in the passes that there are; whole scenes have no shader for them.
+#[test]
+fn masks_add_no_pass() {
+    let mut gpu = support::gpu();
+    let view = still_life::view_of(&still_life::camera());
+    let scenes = [still_life::scene(), still_life::leafy(still_life::leaf(Wrap::Repeat))];
+    for variant in VARIANTS {
+        let id = variant_id(variant.name, Calibration::LightMatched);
+        let light = still_life::light_for(id);
+        let [whole, cut] = scenes.each_ref().map(|scene| {
+            let mut renderer = Renderer::new(&mut gpu, scene, 64).expect("fits");
+            renderer.recording(id, (&view, &light), (Seeding::Frozen, [0, 0])).expect("fits").passes
+        });
+        let labels = |passes: &[Pass]| passes.iter().map(Pass::label).collect::<Vec<_>>();
+        assert_eq!(labels(&whole), labels(&cut), "{}", variant.name);
+        for (whole, cut) in whole.iter().zip(&cut) {
+            if let (Pass::Raster(whole), Pass::Raster(cut)) = (whole, cut) {
+                assert!(whole.cut.is_empty() && !cut.cut.is_empty(), "{}", whole.label);
+                assert_eq!(whole.shader, cut.shader);
+            }
         }
     }
 }
