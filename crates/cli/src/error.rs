@@ -27,6 +27,12 @@ pub(crate) enum CliError {
     File { path: PathBuf, source: std::io::Error },
     #[error("{}: {message}", path.display())]
     Suite { path: PathBuf, message: String },
+    #[error("{}: {message}", path.display())]
+    Frame { path: PathBuf, message: String },
+    #[error(transparent)]
+    Sequence(#[from] umbrage_frame::SequenceError),
+    #[error("the cameras do not fit the frames: {0}")]
+    Projection(String),
     #[error("nothing could be scored: {0}")]
     NothingScored(String),
     #[error("not a finite number: {0}")]
@@ -50,7 +56,7 @@ impl CliError {
                 ShadowError::Device(DeviceError::UnknownBackend { .. }) | ShadowError::WrongLight { .. },
             ) => 2,
             Self::Regressed(_) => 1,
-            Self::NothingScored(_) | Self::Report(ReportError::NotComparable(_)) => 3,
+            Self::NothingScored(_) | Self::Projection(_) | Self::Report(ReportError::NotComparable(_)) => 3,
             Self::NoBaseline { .. } => 5,
             Self::Interrupted { .. } => 130,
             _ => 4,
@@ -73,6 +79,10 @@ impl CliError {
             Self::Reference(ReferenceError::Device(_)) => {
                 Some("`--reference-on cpu` finds the same truth without a GPU".into())
             }
+            Self::Report(ReportError::NotComparable(_)) => Some(
+                "run with the baseline's settings, or make it again with `--save-baseline` if the change was meant"
+                    .into(),
+            ),
             Self::NothingScored(_) => {
                 Some("look at the pictures of the report; check the camera path and the light".into())
             }

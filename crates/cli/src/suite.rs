@@ -51,9 +51,9 @@ struct SuiteScene {
 /// A scene with the names of the paths that are evaluated.
 pub(crate) struct Job {
     pub(crate) scene: Scene,
-    /// The scene's name, whichever light is scored.
-    family: String,
     pub(crate) paths: Vec<String>,
+    /// What is too small to matter here, by score.
+    gate: BTreeMap<String, MarginCard>,
     /// Made for a bare model: the user edits it for the next run.
     pub(crate) made_file: Option<SceneFile>,
 }
@@ -206,11 +206,8 @@ fn suite_of(args: &EvaluateArgs) -> Result<SuiteFile, CliError> {
 /// The suite's margins; scenes by the name that they have in results.
 fn margins_of(file: &SuiteFile, jobs: &[Job]) -> Result<Margins, CliError> {
     let mut margins = Margins { all: file.gate.clone(), ..Margins::default() };
-    for entry in file.scene.iter().filter(|s| !s.gate.is_empty()) {
-        let named = |job: &&Job| entry.name.file_stem().is_some_and(|stem| stem == job.family.as_str());
-        for job in jobs.iter().filter(named) {
-            margins.scenes.insert(job.scene.name.clone(), entry.gate.clone());
-        }
+    for job in jobs.iter().filter(|job| !job.gate.is_empty()) {
+        margins.scenes.insert(job.scene.name.clone(), job.gate.clone());
     }
     match margins.problem() {
         Some(problem) => Err(CliError::Usage(format!("[gate] of the suite \"{}\": {problem}", file.name))),
@@ -248,7 +245,7 @@ fn jobs_of(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<Job>, CliError> 
         };
         for light in lights {
             let (scene, made_file) = find_lit_scene(&entry.name, light)?;
-            let family = family_of(&scene.name).to_owned();
+            let family = family_of(&scene.name);
             let is_wanted = |wanted: &String| *wanted == scene.name || *wanted == family;
             if !args.scenes.is_empty() && !args.scenes.iter().any(is_wanted) {
                 continue;
@@ -258,7 +255,7 @@ fn jobs_of(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<Job>, CliError> 
             if jobs.iter().any(|j| j.scene.content_hash() == scene.content_hash() && j.paths == paths) {
                 continue;
             }
-            jobs.push(Job { scene, family, paths, made_file });
+            jobs.push(Job { scene, paths, gate: entry.gate.clone(), made_file });
         }
     }
     match (jobs.is_empty(), args.scenes.first()) {

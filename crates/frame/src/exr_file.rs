@@ -35,7 +35,7 @@ pub enum ExrError {
 /// largest texture of common adapters.
 const MAX_PIXELS: usize = 16384 * 16384;
 
-fn file_error(path: &Path, reason: impl ToString) -> ExrError {
+pub(crate) fn file_error(path: &Path, reason: impl ToString) -> ExrError {
     ExrError::File { path: path.into(), reason: reason.to_string() }
 }
 
@@ -88,7 +88,18 @@ pub fn read_exr(path: &Path) -> Result<Vec<Layer>, ExrError> {
         ex::read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
     let image = reader.from_file(path).map_err(|e| file_error(path, e))?;
     let mut layers = Vec::new();
+    let whole = image.attributes.display_window;
     for part in image.layer_data {
+        if part.attributes.layer_position != whole.position || part.size != whole.size {
+            return Err(file_error(
+                path,
+                format!(
+                    "its data window ({:?} at {:?}) is not its display window ({:?}): write whole pictures, without overscan \
+                     or crop",
+                    part.size, part.attributes.layer_position, whole
+                ),
+            ));
+        }
         let (width, height) = (part.size.0 as u32, part.size.1 as u32);
         let prefix = part.attributes.layer_name.map(|n| format!("{n}.")).unwrap_or_default();
         for channel in part.channel_data.list {

@@ -158,11 +158,7 @@ fn found(trial: &Trial) -> Result<Option<Found>, MetricsError> {
     if [base.value, base.variance, now.value, now.variance].iter().any(|v| !v.is_finite()) {
         return Err(MetricsError::Unlike("a number is not finite"));
     }
-    let harm = match trial.number {
-        // Right at 1: harm is to get farther from it.
-        PooledNumber::WidthRatio => (now.value - 1.0).abs() - (base.value - 1.0).abs(),
-        _ => now.value - base.value,
-    };
+    let harm = trial.number.harm(base.value, now.value);
     // Welch and Satterthwaite: two spreads estimated on their own.
     let variance = base.variance + now.variance;
     let part = |r: Reading| if r.variance > 0.0 { r.variance.powi(2) / r.freedom.max(1.0) } else { 0.0 };
@@ -175,6 +171,17 @@ fn found(trial: &Trial) -> Result<Option<Found>, MetricsError> {
         freedom,
         margin: trial.margin.at(base.value),
     }))
+}
+
+impl PooledNumber {
+    /// How much worse `now` is than `base`, in the number's own unit.
+    pub fn harm(self, base: f64, now: f64) -> f64 {
+        match self {
+            // Right at 1: harm is to get farther from it.
+            Self::WidthRatio => (now - 1.0).abs() - (base - 1.0).abs(),
+            _ => now - base,
+        }
+    }
 }
 
 impl Found {
@@ -218,7 +225,8 @@ impl Found {
             margin: self.margin,
             verdict,
             caught: self.margin + strict + self.reach(1.0 - CONFIDENCE),
-            would_pass_at: (self.harm - strict).max(0.0),
+            // Whatever its rank among the others: the last is judged without correction.
+            would_pass_at: (self.harm - self.reach(1.0 - CONFIDENCE)).max(0.0),
             needs_times: match verdict {
                 Verdict::Inconclusive => Some((half / apart).powi(2).max(1.0)).filter(|t| t.is_finite()),
                 _ => Some(1.0),

@@ -39,6 +39,16 @@ impl Panel {
         self.values[(frame * self.seeds + seed) * self.points + point]
     }
 
+    /// One of its frames.
+    ///
+    /// # Panics
+    /// When there is no such frame: a programming error, never a user's.
+    pub fn frame(&self, frame: usize) -> Self {
+        let length = self.seeds * self.points;
+        let values = self.values[frame * length..][..length].to_vec();
+        Self { frames: 1, values, ..*self }
+    }
+
     /// Checks that the layout holds what the counts say.
     ///
     /// # Errors

@@ -67,6 +67,21 @@ impl Tracer {
         }
     }
 
+    /// The same through some of the pixel centres (indices in row order): linear depth of each, infinite where
+    /// nothing is hit, and the points of those that hit.
+    pub fn primary_some(&self, view: &View, pixels: &[u32]) -> (Vec<f32>, Points) {
+        let camera = CameraRays::new(view);
+        let at = |&pixel: &u32| self.seen(&camera, pixel % view.width, pixel / view.width);
+        let seen: Vec<Seen> = pixels.par_iter().map(at).collect();
+        let hits = || seen.iter().filter(|s| s.depth.is_finite());
+        let points = Points {
+            position: hits().map(|s| s.position).collect(),
+            normal: hits().map(|s| s.normal).collect(),
+            triangle: hits().map(|s| s.triangle).collect(),
+        };
+        (seen.iter().map(|s| s.depth).collect(), points)
+    }
+
     fn seen(&self, camera: &CameraRays, x: u32, y: u32) -> Seen {
         let line = camera.line(x, y);
         let Some(hit) = self.surfaces.closest(&line, |_, _| false) else { return NOTHING };

@@ -58,7 +58,11 @@ pub(crate) fn refined<E>(
     tolerance: f32,
     mut equal: impl FnMut(&Points, &TruthSettings) -> Result<GroundTruth, E>,
 ) -> Result<GroundTruth, E> {
-    let most = if settings.method.on_scanlines() { MOST_ON_SCANLINES } else { MOST_ON_POINTS };
+    let most = match settings.method.on_scanlines() {
+        true => MOST_ON_SCANLINES,
+        // Whoever asks for more gets it everywhere.
+        false => MOST_ON_POINTS.max(settings.samples),
+    };
     let least = settings.samples.min(most);
     let pilot = TruthSettings {
         samples: least.min(PILOT),

@@ -31,7 +31,7 @@ pub use claims::{
 pub use error::ReportError;
 pub use gate::{
     BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, ChangeCard, GateCard, GateCase, MarginCard,
-    Margins, Side, compare, gated, not_comparable, write_gate_crops,
+    Margins, SUMS, Side, compare, gated, not_comparable, write_gate_crops,
 };
 pub use store::{RunWriter, VariantPictures, WindowPictures};
 pub use write::{Layout, Written, write_report};

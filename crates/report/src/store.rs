@@ -4,6 +4,7 @@
 //! the zeroed bits compress away, any EXR viewer opens them, and NaN stays NaN.
 
 use crate::error::{ReportError, write_whole};
+use crate::gate::{CROPS, GATE, SUMS};
 use crate::{SCHEMA_VERSION, Scorecard};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -56,6 +57,20 @@ pub(crate) struct StoredVariant {
 
 const INDEX: &str = "index.json";
 
+/// What an earlier run in the same folder came to must not pass for what this one does, if it breaks off.
+fn forget_earlier(folder: &Path) -> Result<(), ReportError> {
+    let gone = |path: PathBuf, removed: std::io::Result<()>| match removed {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(ReportError::at(&path)(e)),
+        _ => Ok(()),
+    };
+    let crops = folder.join(CROPS);
+    gone(crops.clone(), std::fs::remove_dir_all(&crops))?;
+    [scorecard_path(folder), folder.join(GATE), folder.join(SUMS)].into_iter().try_for_each(|file| {
+        let removed = std::fs::remove_file(&file);
+        gone(file, removed)
+    })
+}
+
 impl RunWriter {
     /// Makes the folder of a run (an existing one is used; its pages are replaced at the end).
     ///
@@ -64,6 +79,7 @@ impl RunWriter {
     pub fn create(folder: &Path) -> Result<Self, ReportError> {
         let pictures = folder.join("pictures");
         std::fs::create_dir_all(&pictures).map_err(ReportError::at(&pictures))?;
+        forget_earlier(folder)?;
         let index = PictureIndex { schema_version: SCHEMA_VERSION, ..PictureIndex::default() };
         let writer = Self { folder: folder.into(), index };
         writer.save_index()?;

@@ -7,6 +7,7 @@
 mod assemble;
 mod builtin;
 mod camera;
+mod cameras;
 #[cfg(test)]
 mod cutout_tests;
 mod error;
@@ -31,6 +32,10 @@ mod texture;
 
 pub use builtin::builtin_names;
 pub use camera::{Camera, CameraPath, PathFrame};
+pub use cameras::{
+    Axis, CameraFile, CamerasJson, Convention, ConventionJson, FrameCamera, FrameJson, Handedness,
+    MatrixOrder, Preset, VectorKind, cameras_schema,
+};
 pub use error::SceneError;
 pub use generators::Generator;
 pub use light::AreaLight;

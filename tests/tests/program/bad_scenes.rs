@@ -24,6 +24,9 @@ fn sphere(centre: [f32; 3]) -> String {
 #[track_caller]
 fn scores_nothing(folder: &Path, ran: Ran) {
     ran.ended_with(3).says("nothing could be scored").says("help:");
+    // It is no baseline, either.
+    run(&mut umbrage(folder, "accept run --name main")).ended_with(3).says("nothing to compare with");
+    assert!(!folder.join("reports/baselines").exists());
     for page in ["index.html", "scorecard.json", "scores.csv", "summary.md", "junit.xml"] {
         assert!(folder.join("run").join(page).exists(), "{page}");
     }

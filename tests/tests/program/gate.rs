@@ -61,6 +61,28 @@ fn a_regression_is_caught_shown_and_accepted() {
     assert!(back.stderr.contains(" improved"), "{}", back.stderr);
 }
 
+/// A gate that is shut lets nothing become the baseline, and a folder that is used again keeps no verdict.
+#[test]
+fn what_failed_is_not_saved_and_what_was_judged_is_forgotten() {
+    let home = folder_with_scene();
+    let folder = home.path();
+    evaluate(folder, "--out run --save-baseline main").ended_with(0);
+    let before = std::fs::read(baseline(folder)).expect("a file");
+    evaluate(folder, "--out run --baseline main --save-baseline main --bias 0.05,8,off").ended_with(1);
+    assert_eq!(std::fs::read(baseline(folder)).expect("a file"), before, "it was overwritten");
+    assert!(folder.join("run/gate.json").exists() && folder.join("run/gate").exists());
+    evaluate(folder, "--out run").ended_with(0);
+    assert!(!folder.join("run/gate.json").exists() && !folder.join("run/gate").exists());
+    // Names that no file can have are refused before anything is rendered.
+    let ran = evaluate(folder, "--out never --save-baseline a/b").ended_with(2);
+    assert!(!folder.join("never").exists(), "{}", ran.stderr);
+    // A folder that is called like the baseline does not hide it, and one that holds no run is none.
+    std::fs::create_dir(folder.join("main")).expect("made");
+    run(&mut umbrage(folder, "compare main run")).ended_with(0);
+    std::fs::create_dir(folder.join("empty")).expect("made");
+    run(&mut umbrage(folder, "compare empty run")).ended_with(5);
+}
+
 fn the_failure_is_written_down(folder: &Path, worse: &Ran) {
     let junit = read(folder, "worse/junit.xml");
     assert!(junit.contains("<failure message=") && !junit.contains("failures=\"0\""), "{junit}");
@@ -123,9 +145,15 @@ fn what_does_not_compare_says_why() {
     let ran = run(&mut umbrage(folder, &more)).ended_with(0);
     assert!(ran.stderr.contains("not in the baseline: pcf-grid-3"), "{}", ran.stderr);
     run(&mut umbrage(folder, "compare main more --fail-on warn")).ended_with(1);
+    let finer = format!("{SMALL} --tolerance 0.01 --out finer --baseline main");
+    let ran = run(&mut umbrage(folder, &finer)).ended_with(3);
+    let ran = ran.says("tolerance of truth: none in the baseline, 0.01 in the run").says("--save-baseline");
+    assert!(!ran.stderr.contains("picture:"), "{}", ran.stderr);
     // Two seeds cannot tell their spread.
     let two = SMALL.replace("--seeds 3", "--seeds 2");
-    run(&mut umbrage(folder, &format!("{two} --out two --save-baseline two"))).ended_with(0);
+    run(&mut umbrage(folder, &format!("{two} --out two --save-baseline two")))
+        .ended_with(0)
+        .says("--seeds 3");
     let ran = run(&mut umbrage(folder, "compare two two")).ended_with(3);
     assert!(ran.stderr.contains("--seeds 3"), "{}", ran.stderr);
 }
@@ -176,7 +204,13 @@ fn margins_come_from_the_suite() {
         ["error", "banding", "swimming", "noise", "noise_4x4", "light_leak", "false_shadow", "width_ratio"];
     let wide: String = names.iter().map(|n| format!("{n} = {{ absolute = 100.0 }}\n")).collect();
     suite(&format!("[gate]\n{wide}"), "");
-    run(&mut umbrage(folder, &gated("wide"))).ended_with(0);
+    let ran = run(&mut umbrage(folder, &gated("wide"))).ended_with(0);
+    let ran = ran.says("margin changed: error: 0.000200 or 1.00 % in the baseline, 100 or 0 % now");
+    assert!(!ran.stderr.contains("margin changed: error in"), "once, not for each scene: {}", ran.stderr);
+    // For one scene alone, by the name that the scene has in results.
+    let inline: Vec<String> = names.iter().map(|n| format!("{n} = {{ absolute = 100.0 }}")).collect();
+    suite("", &format!("gate = {{ {} }}", inline.join(", ")));
+    run(&mut umbrage(folder, &gated("scene"))).ended_with(0).says("margin changed: error in ");
     suite("[gate]\neror = { absolute = 1.0 }", "");
     let ran = run(&mut umbrage(folder, &gated("wrong"))).ended_with(2);
     assert!(ran.stderr.contains("no score \"eror\" is gated"), "{}", ran.stderr);

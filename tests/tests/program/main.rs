@@ -11,3 +11,4 @@ mod models;
 mod outputs;
 mod recompute;
 mod robustness;
+mod score;

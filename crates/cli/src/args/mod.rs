@@ -2,11 +2,13 @@
 
 mod gate;
 mod parse;
+mod score;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use gate::{AcceptArgs, CompareArgs, FailOn, GateArgs, Plant};
 pub(crate) use parse::check_size;
 use parse::{parse_bias, parse_light, parse_size, parse_tolerance};
+pub(crate) use score::{ScoreArgs, TransferArg};
 use std::path::PathBuf;
 use umbrage_shadows::Bias;
 
@@ -25,6 +27,8 @@ const EXIT_CODES: &str = "Exit codes: 0 pass (warnings allowed), 1 regression or
 pub(crate) enum Command {
     /// Render truth and variants, score them, write the report: the main job.
     Evaluate(EvaluateArgs),
+    /// Frames of another engine against truth for the same cameras.
+    Score(Box<ScoreArgs>),
     /// The gate: a stored run against a baseline.
     Compare(CompareArgs),
     /// Makes a stored run the baseline.

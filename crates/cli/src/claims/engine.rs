@@ -114,7 +114,7 @@ impl Run<'_> {
         let reads_pixels = variants.values().flatten().any(Measure::reads_pixels);
         let readings = if reads_pixels { Readings::Both } else { Readings::Anchored };
         let request = Request { scene, path, first, frames, readings };
-        let window = Window::new(&request, (finder, &self.truths, renderer), &self.settings.sampling)?;
+        let window = Window::new(&request, (finder, &self.truths, Some(renderer)), &self.settings.sampling)?;
         if window.disagreement() > DISAGREEMENT_LIMIT {
             self.refuse(place, "truth and raster see different surfaces", variants);
             return Ok(());

@@ -10,12 +10,13 @@ use crate::run::{Settings, evaluate};
 use crate::shell;
 use crate::suite::Plan;
 use std::path::{Path, PathBuf};
-use umbrage_report::{Baseline, Layout, write_report};
+use umbrage_report::{Layout, write_report};
 use umbrage_shadows::Gpu;
 
 pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     let plan = Plan::new(args)?;
     check_masks(args.truth.reference_on, plan.jobs.iter().map(|job| &job.scene))?;
+    args.save_baseline.as_deref().map_or(Ok(()), gate::check_name)?;
     let now = clock::now();
     let out = args.out.clone().unwrap_or_else(|| run_folder(&plan.name, &now.folder));
     let mut gpu = open_gpu(&args.view.gpu)?;
@@ -54,11 +55,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
 /// A baseline that is not there is said before the work, not after it.
 fn missing_baseline(args: &EvaluateArgs, gpu: &Gpu) -> Result<(), CliError> {
     let Some(name) = &args.baseline else { return Ok(()) };
-    let path = Baseline::path(&args.gate.baselines, name, &adapter_card(gpu));
-    match Path::new(name).exists() || path.exists() {
-        true => Ok(()),
-        false => Err(CliError::NoBaseline { name: name.clone(), path }),
-    }
+    gate::place_of(name, &adapter_card(gpu), &args.gate.baselines).map(|_| ())
 }
 
 fn pages(out: &Path, kind: ReportKind) -> Result<umbrage_report::Written, CliError> {
@@ -74,7 +71,7 @@ pub(super) fn layout(kind: ReportKind) -> Layout {
 }
 
 /// Safe as a folder name whatever the suite is called.
-fn run_folder(name: &str, date: &str) -> PathBuf {
+pub(super) fn run_folder(name: &str, date: &str) -> PathBuf {
     let safe: String = name
         .chars()
         .map(|c| if c.is_ascii_alphanumeric() || "-_.+".contains(c) { c } else { '-' })

@@ -4,12 +4,11 @@ use super::evaluate::layout;
 use crate::args::{AcceptArgs, CompareArgs, FailOn, GateArgs, ReportKind};
 use crate::error::CliError;
 use crate::output::print;
-use crate::run::sums::FILE;
 use crate::shell;
 use std::path::{Path, PathBuf};
 use umbrage_metrics::Verdict;
 use umbrage_report::{
-    AdapterCard, Baseline, GateCard, GateCase, Scorecard, compare, write_gate_crops, write_report,
+    AdapterCard, Baseline, GateCard, GateCase, SUMS, Scorecard, compare, write_gate_crops, write_report,
 };
 
 /// `umbrage compare BASE RUN`.
@@ -39,13 +38,21 @@ pub(crate) fn accept(args: &AcceptArgs) -> Result<(), CliError> {
 
 /// Makes a run the baseline of a name; where it lies.
 pub(super) fn save(run: &Path, name: &str, baselines: &Path) -> Result<PathBuf, CliError> {
-    let safe = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
-    if !safe {
-        return Err(CliError::Usage(format!(
-            "\"{name}\" is no name of a baseline: letters, digits, - and _ are"
+    check_name(name)?;
+    let mut sums = Baseline::load(&run.join(SUMS))?;
+    if sums.is_empty() {
+        return Err(CliError::NothingScored(format!(
+            "{} holds no sums: nothing to compare with",
+            run.display()
         )));
     }
-    let mut sums = Baseline::load(&run.join(FILE))?;
+    if sums.provenance.seeds < FEWEST_SEEDS && sums.sums.iter().any(|s| s.spread.is_empty()) {
+        eprintln!(
+            "warning: with {} seeds nothing is known about their spread; no run can be compared with this \
+             baseline: make it with --seeds {FEWEST_SEEDS} or more",
+            sums.provenance.seeds
+        );
+    }
     // A baseline is committed: where its run lay is nobody's business.
     sums.provenance.command = shell::without(&sums.provenance.command, &["--out", "--cache", "--baselines"]);
     std::fs::create_dir_all(baselines).map_err(CliError::file(baselines))?;
@@ -54,9 +61,23 @@ pub(super) fn save(run: &Path, name: &str, baselines: &Path) -> Result<PathBuf, 
     Ok(path)
 }
 
+/// One without which nothing varies.
+const FEWEST_SEEDS: u32 = 3;
+
+/// A name that is safe as a part of a file's.
+pub(super) fn check_name(name: &str) -> Result<(), CliError> {
+    let safe = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+    match safe {
+        true => Ok(()),
+        false => {
+            Err(CliError::Usage(format!("\"{name}\" is no name of a baseline: letters, digits, - and _ are")))
+        }
+    }
+}
+
 /// Judges a run, and stores what was found in its folder.
 pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, CliError> {
-    let sums = Baseline::load(&run.join(FILE))?;
+    let sums = Baseline::load(&run.join(SUMS))?;
     let (baseline, name) = find(base, &sums.provenance.adapter, &args.baselines)?;
     let mut card = compare(&baseline, &sums)?;
     card.baseline = name.clone();
@@ -84,24 +105,20 @@ fn reproduce(case: &GateCase, command: &str) -> Option<String> {
     Some(shell::without(command, &whole) + &narrow.concat())
 }
 
-/// By name, as a file, or the sums of another run; and what to call it.
+/// Where a baseline lies that is given by name, as a file or as the folder of a run: names come first, for a
+/// folder may happen to be called like one.
+pub(super) fn place_of(base: &str, adapter: &AdapterCard, baselines: &Path) -> Result<PathBuf, CliError> {
+    let (named, given) = (Baseline::path(baselines, base, adapter), PathBuf::from(base));
+    let folder = given.join(SUMS);
+    let found = [&named, &folder, &given].into_iter().find(|path| path.is_file());
+    found.cloned().ok_or(CliError::NoBaseline { name: base.into(), path: named })
+}
+
+/// A baseline, and what to call it: "standard.vulkan-llvmpipe.json" is "standard".
 fn find(base: &str, adapter: &AdapterCard, baselines: &Path) -> Result<(Baseline, String), CliError> {
-    let path = Path::new(base);
-    let stem = || path.file_stem().map_or_else(|| base.into(), |s| s.to_string_lossy().into_owned());
-    if path.is_dir() {
-        return Ok((Baseline::load(&path.join(FILE))?, stem()));
-    }
-    if path.is_file() {
-        // "standard.vulkan-llvmpipe" is the baseline "standard".
-        let name = stem();
-        let name = name.split('.').next().unwrap_or(&name).to_string();
-        return Ok((Baseline::load(path)?, name));
-    }
-    let path = Baseline::path(baselines, base, adapter);
-    if !path.exists() {
-        return Err(CliError::NoBaseline { name: base.into(), path });
-    }
-    Ok((Baseline::load(&path)?, base.into()))
+    let found = Baseline::load(&place_of(base, adapter, baselines)?)?;
+    let stem = Path::new(base).file_stem().map_or_else(|| base.into(), |s| s.to_string_lossy());
+    Ok((found, stem.split('.').next().unwrap_or(base).to_string()))
 }
 
 /// Says what was found, and marks it for GitHub where that is what runs this.
@@ -112,6 +129,9 @@ pub(super) fn answer(card: &GateCard, args: &GateArgs, quiet: bool) -> Result<()
         for line in case.details(card) {
             eprintln!("  {line}");
         }
+    }
+    for change in &card.margins_changed {
+        eprintln!("margin changed: {change}");
     }
     if !card.new.is_empty() {
         eprintln!("not in the baseline: {}", card.new.join(", "));
@@ -155,7 +175,7 @@ pub(super) fn outcome(card: &GateCard, args: &GateArgs) -> Result<(), CliError> 
     }))
 }
 
-/// After a run: the gate, then the pages with its answer, then the new baseline.
+/// After a run: the gate, then the pages with its answer, then the new baseline, unless the gate is shut.
 pub(super) fn after_run(
     run: &Path,
     (baseline, save_as): (Option<&String>, Option<&String>),
@@ -166,9 +186,10 @@ pub(super) fn after_run(
     if let Some(card) = &card {
         write_report(run, layout(kind))?;
         answer(card, args, quiet)?;
+        outcome(card, args)?;
     }
     if let Some(name) = save_as {
         eprintln!("baseline: {}", save(run, name, &args.baselines)?.display());
     }
-    card.map_or(Ok(()), |card| outcome(&card, args))
+    Ok(())
 }

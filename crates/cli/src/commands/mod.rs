@@ -7,6 +7,7 @@ mod list;
 mod reference;
 mod render;
 mod report;
+mod score;
 
 use crate::args::{Arguments, Command, GpuArgs, ReferenceOn};
 use crate::error::CliError;
@@ -19,6 +20,7 @@ use umbrage_shadows::{AdapterChoice, Gpu};
 pub(crate) fn dispatch(arguments: &Arguments) -> Result<ExitCode, CliError> {
     match &arguments.command {
         Command::Evaluate(args) => evaluate::run(args),
+        Command::Score(args) => score::run(args),
         Command::Compare(args) => gate::compare_runs(args),
         Command::Accept(args) => gate::accept(args),
         Command::Claims(args) => claims::run(args),
@@ -47,7 +49,10 @@ fn open_truth_gpu(on: ReferenceOn, wanted: &GpuArgs) -> Result<Option<TruthGpu>,
         (ReferenceOn::Auto, Err(ReferenceError::Device(error @ DeviceError::UnknownBackend { .. }))) => {
             return Err(ReferenceError::Device(error).into());
         }
-        (ReferenceOn::Auto, Err(_)) => None,
+        (ReferenceOn::Auto, Err(error)) => {
+            eprintln!("truth on: CPU (no GPU for it: {error})");
+            None
+        }
         (_, opened) => Some(opened?),
     };
     if let Some(adapter) = gpu.as_ref().map(TruthGpu::description) {

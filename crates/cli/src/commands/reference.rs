@@ -4,7 +4,7 @@ use super::{check_masks, open_truth_gpu};
 use crate::args::{MethodArg, ReferenceArgs, ReferenceOn};
 use crate::error::CliError;
 use crate::output::print;
-use crate::run::window::reached_note;
+use crate::run::truths::reached_note;
 use crate::scenes::{find_lit_scene, only_light};
 use crate::views::{frame_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use umbrage_frame::Image;
 use umbrage_metrics::{
-    Measurement, SeedSpread, SumTable, TileTable, block_sums, point_maps, seed_spread, window_profiles,
-    window_tiles,
+    Measurement, Panel, PanelTruth, PointMaps, SeedSpread, SumTable, TileTable, block_sums, point_maps,
+    seed_spread, window_profiles, window_tiles,
 };
 use umbrage_report::VariantPictures;
 use umbrage_shadows::{Renderer, Seeding, VariantId};
@@ -67,25 +67,19 @@ pub(super) fn measure(
         plant: sampling.plant,
     };
     let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
-    let anchored = window_tiles(&panel, &window.truth, &window.tiling)?;
-    let maps = point_maps(&panel, &window.truth, &window.tiling)?;
+    let (mut numbers, maps) = reduced(window, &panel, (&window.truth, &panel))?;
     let (view, light) = &window.frames[window.middle()];
     renderer.set_past(window.past(window.middle()));
     let shipped = (Seeding::Frozen, [window.first + window.middle() as u32, 0]);
     let values = renderer.shade_frame(variant, (view, light), shipped)?.values;
     let (width, height) = window.size();
     let mask = Image::from_pixels(width, height, values);
-    let profile = window_profiles(&panel, &window.truth, &window.anchors, &window.tiling)?;
-    let blocks = block_sums(&panel, &window.truth, &window.tiling)?;
-    let spread = seed_spread(&panel, &window.truth, &window.anchors, &window.tiling)?;
-    let (mut extras, noise_spectrum) = extras::of_panel(window, (&panel, &profile), &maps)?;
-    extras.extend(extras::of_picture(window, &mask));
-    extras.insert("worst_tile".into(), extras::worst(&anchored)?);
+    numbers.extras.extend(extras::of_picture(window, &mask));
     drop(panel);
     if variant.info().stochastic {
-        extras.extend(extras::of_patterns(window, (variant, renderer))?);
+        numbers.extras.extend(extras::of_patterns(window, (variant, renderer))?);
     }
-    let pixels = match &window.pixel_truth {
+    numbers.pixels = match &window.pixel_truth {
         None => None,
         Some(truth) => {
             let panel = shade_panel(window, (variant, renderer), Reading::Pixels, draw)?;
@@ -93,16 +87,30 @@ pub(super) fn measure(
         }
     };
     let pictures = pictures::variant(window, mask, &maps);
-    Ok(Measured {
-        numbers: Numbers {
-            anchored,
-            profile: profile.sum_table(),
-            blocks,
-            spread,
-            pixels,
-            extras,
-            noise_spectrum,
-        },
-        pictures,
-    })
+    Ok(Measured { numbers, pictures })
+}
+
+/// What a panel comes to, and where. Widths are those of `sharp`, a panel that is read at the anchors
+/// themselves: at the nearest pixel edges move to and fro, and their mean is wider than any of them.
+pub(super) fn reduced(
+    window: &Window,
+    panel: &Panel,
+    (truth, sharp): (&PanelTruth, &Panel),
+) -> Result<(Numbers, PointMaps), CliError> {
+    let (anchors, tiling) = (&window.anchors, &window.tiling);
+    let anchored = window_tiles(panel, truth, tiling)?;
+    let maps = point_maps(panel, truth, tiling)?;
+    let profile = window_profiles(sharp, &window.truth, anchors, tiling)?;
+    let (mut extras, noise_spectrum) = extras::of_panel(window, (panel, &profile), &maps)?;
+    extras.insert("worst_tile".into(), extras::worst(&anchored)?);
+    let numbers = Numbers {
+        anchored,
+        profile: profile.sum_table(),
+        blocks: block_sums(panel, truth, tiling)?,
+        spread: seed_spread(panel, truth, anchors, tiling)?,
+        pixels: None,
+        extras,
+        noise_spectrum,
+    };
+    Ok((numbers, maps))
 }

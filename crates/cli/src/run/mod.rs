@@ -1,6 +1,7 @@
 //! The main job: window by window, variant by variant, from truth to a stored run.
 
 pub(crate) mod cost;
+pub(crate) mod elsewhere;
 mod extras;
 mod measure;
 pub(crate) mod panel;
@@ -9,6 +10,7 @@ mod plant;
 pub(crate) mod provenance;
 mod scorecard;
 pub(crate) mod sums;
+pub(crate) mod truths;
 pub(crate) mod unit;
 pub(crate) mod window;
 
@@ -22,8 +24,8 @@ use measure::Measured;
 use std::path::PathBuf;
 use umbrage_metrics::Bootstrap;
 use umbrage_reference::{Cache, Finder, Tracer, TruthGpu};
-use umbrage_report::{RunWriter, Scorecard, WindowPictures};
-use umbrage_shadows::{Bias, Gpu, Renderer};
+use umbrage_report::{RunWriter, SUMS, Scorecard, WindowPictures};
+use umbrage_shadows::{Bias, Gpu, Renderer, VariantId};
 use window::Window;
 
 /// Where things go, and what is kept beside the report.
@@ -91,8 +93,14 @@ pub(crate) fn evaluate(
     }
     run.progress.finish();
     keep_made_files(plan, settings)?;
-    let card = scorecard::assemble(plan, settings, (gpu, &scored, &costs), &run.bootstrap)?;
-    sums::of(plan, &card.provenance, &scored).save(&settings.out.join(sums::FILE))?;
+    let card = scorecard::assemble(
+        provenance::provenance(plan, settings, gpu),
+        scorecard::Subjects::of(plan, &costs, gpu),
+        &scored,
+        &run.bootstrap,
+    )?;
+    let names = plan.variants.iter().map(VariantId::name).collect();
+    sums::of((names, plan.margins.clone()), &card.provenance, &scored).save(&settings.out.join(SUMS))?;
     let warnings = warnings(&scored);
     run.writer.finish(&card)?;
     if scored.iter().all(|s| s.window.coverage.counted == 0) {
@@ -177,8 +185,11 @@ impl Run<'_> {
                 self.progress.say(format!("{}, {name}: truth", scene.name));
                 let request =
                     window::Request { scene, path, first, frames, readings: window::Readings::Both };
-                let window =
-                    Window::new(&request, (&mut finder, &self.cache, &mut renderer), &self.plan.sampling)?;
+                let window = Window::new(
+                    &request,
+                    (&mut finder, &self.cache, Some(&mut renderer)),
+                    &self.plan.sampling,
+                )?;
                 self.progress.advance(1);
                 let refused = window.disagreement() > DISAGREEMENT_LIMIT;
                 let variants = if refused {

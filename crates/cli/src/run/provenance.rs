@@ -2,11 +2,11 @@
 
 use super::Settings;
 use super::extras::{PATTERN_FRAMES, PATTERN_SEEDS};
-use super::window::PIXEL_SAMPLES;
+use super::truths::PIXEL_SAMPLES;
 use crate::suite::Plan;
 use umbrage_frame::AgreementLimits;
 use umbrage_metrics::{Bootstrap, TILE_PX, Viewing};
-use umbrage_reference::TruthSettings;
+use umbrage_reference::{TruthGpu, TruthSettings};
 use umbrage_report::{AdapterCard, Provenance, SceneCard, TruthCard};
 use umbrage_scene::{AreaLight, Scene};
 use umbrage_shadows::{Gpu, LightKind, LightMap};
@@ -23,14 +23,16 @@ pub(super) fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provena
         height: plan.sampling.size.1,
         frames: plan.sampling.window,
         seeds: plan.sampling.seeds,
+        first_seed: plan.sampling.first_seed,
         tile_px: TILE_PX,
         shadow_map_texels: settings.map_texels,
         truth: TruthCard {
             samples_per_half: plan.sampling.samples,
             basis_samples: plan.sampling.basis_samples,
+            tolerance: plan.sampling.tolerance,
             method: format!(
                 "scanlines: every triangle between point and light covers runs of samples on jittered lines{}",
-                on(settings)
+                on(settings.truth_gpu.as_ref())
             ),
         },
         scenes: plan.jobs.iter().map(|job| scene_card(&job.scene, settings.map_texels)).collect(),
@@ -39,9 +41,8 @@ pub(super) fn provenance(plan: &Plan, settings: &Settings, gpu: &Gpu) -> Provena
 }
 
 /// Where truth was found.
-fn on(settings: &Settings) -> String {
-    let gpu = settings.truth_gpu.as_ref().map(|gpu| gpu.description());
-    gpu.map(|a| format!(", on {} ({})", a.name, a.driver)).unwrap_or_default()
+pub(super) fn on(gpu: Option<&TruthGpu>) -> String {
+    gpu.map(TruthGpu::description).map(|a| format!(", on {} ({})", a.name, a.driver)).unwrap_or_default()
 }
 
 /// What rendered the variants.
@@ -105,10 +106,9 @@ fn scene_card(scene: &Scene, texels: u32) -> SceneCard {
         }
         LightKind::Cube => "six perspective faces".into(),
     };
-    let hash: String = scene.content_hash().iter().take(16).map(|b| format!("{b:02x}")).collect();
     SceneCard {
         name: scene.name.clone(),
-        content_hash: hash,
+        content_hash: hash_of(scene),
         light: describe_light(light),
         shadow_map: format!(
             "{projection}, centred on {}, depths up to {:.2} m, nearest blocker at {:.2} m, {texels}² texels of {:.2} mm; \
@@ -123,7 +123,12 @@ fn scene_card(scene: &Scene, texels: u32) -> SceneCard {
     }
 }
 
-fn describe_light(light: &AreaLight) -> String {
+/// Hash of geometry and lights, for people.
+pub(super) fn hash_of(scene: &Scene) -> String {
+    scene.content_hash().iter().take(16).map(|b| format!("{b:02x}")).collect()
+}
+
+pub(super) fn describe_light(light: &AreaLight) -> String {
     match *light {
         AreaLight::Sun { angular_diameter_radians, direction_to_light: d } => format!(
             "sun, {:.3} degrees across, elevation {:.1} degrees, azimuth {:.1} degrees (+x to +z)",

@@ -1,7 +1,7 @@
 //! From what was measured to the scorecard.
 
+use super::Scored;
 use super::cost::{CostOf, pooled};
-use super::{Scored, Settings};
 use crate::error::CliError;
 use crate::suite::Plan;
 use std::collections::BTreeMap;
@@ -10,28 +10,48 @@ use umbrage_metrics::{
     swimming_per_frame,
 };
 use umbrage_report::{
-    Calibration, Measured, MetricCard, OverallCard, PairedCard, ResultCard, SCHEMA_VERSION, Scorecard,
-    SettingsCard, VariantCard, WindowCard,
+    Calibration, Cost, Measured, MetricCard, OverallCard, PairedCard, Provenance, ResultCard, SCHEMA_VERSION,
+    Scorecard, SettingsCard, VariantCard, WindowCard,
 };
 use umbrage_shadows::{ConstantBias, Gpu, ReceiverPlane, VariantId};
 
 /// Metrics whose groups and pairs are shown.
 const COMPARED: [Quantity; 4] = [Quantity::Error, Quantity::Banding, Quantity::Swimming, Quantity::Noise];
 
+/// What was scored.
+pub(super) struct Subjects {
+    /// In the order of each window's measurements.
+    pub(super) cards: Vec<VariantCard>,
+    /// Of each, or why there is none.
+    pub(super) costs: Vec<(Option<Cost>, Option<String>)>,
+}
+
+impl Subjects {
+    /// The variants of a plan.
+    pub(super) fn of(plan: &Plan, costs: &[CostOf], gpu: &Gpu) -> Self {
+        let adapter = gpu.description();
+        let note = || adapter.is_software().then(|| "not a cost: software adapter".to_string());
+        Self {
+            cards: plan.variants.iter().map(|&v| variant_card(v, plan)).collect(),
+            costs: plan.variants.iter().map(|&v| (pooled(costs, v, &adapter.name), note())).collect(),
+        }
+    }
+}
+
 /// Everything, in the report's words.
 pub(super) fn assemble(
-    plan: &Plan,
-    settings: &Settings,
-    (gpu, scored, costs): (&Gpu, &[Scored], &[CostOf]),
+    provenance: Provenance,
+    subjects: Subjects,
+    scored: &[Scored],
     bootstrap: &Bootstrap,
 ) -> Result<Scorecard, CliError> {
     let usable = comparable(scored);
     let mut card = Scorecard {
         schema_version: SCHEMA_VERSION,
-        provenance: super::provenance::provenance(plan, settings, gpu),
+        provenance,
         metrics: METRICS.iter().map(MetricCard::from).collect(),
         windows: Vec::new(),
-        variants: plan.variants.iter().map(|&v| variant_card(v, plan)).collect(),
+        variants: subjects.cards,
         results: Vec::new(),
         overall: Vec::new(),
         paired: Vec::new(),
@@ -51,8 +71,8 @@ pub(super) fn assemble(
         card.paired.extend(pairs(&comparisons, Some(index)));
     }
     let comparisons = compare(&usable, bootstrap)?;
-    card.overall = overall(plan, (&usable, costs, gpu), bootstrap)?;
-    for (overall, groups) in card.overall.iter_mut().zip(groups(&comparisons, plan.variants.len())) {
+    card.overall = overall(&usable, subjects.costs, bootstrap)?;
+    for (overall, groups) in card.overall.iter_mut().zip(groups(&comparisons, card.variants.len())) {
         overall.groups = groups;
     }
     card.paired.extend(pairs(&comparisons, None));
@@ -192,8 +212,8 @@ fn window_card(entry: &Scored, results: &[ResultCard]) -> WindowCard {
 }
 
 fn overall(
-    plan: &Plan,
-    (usable, costs, gpu): (&[&Scored], &[CostOf], &Gpu),
+    usable: &[&Scored],
+    costs: Vec<(Option<Cost>, Option<String>)>,
     bootstrap: &Bootstrap,
 ) -> Result<Vec<OverallCard>, CliError> {
     if usable.is_empty() {
@@ -201,14 +221,12 @@ fn overall(
     }
     let anchored = tables(usable);
     let mut cards = Vec::new();
-    for (index, &variant) in plan.variants.iter().enumerate() {
+    for (index, (cost, cost_note)) in costs.into_iter().enumerate() {
         let pixels: Option<Vec<&TileTable>> =
             usable.iter().map(|s| s.variants[index].numbers.pixels.as_ref()).collect();
-        let cost = pooled(costs, variant, &gpu.description().name);
-        let note = gpu.description().is_software().then(|| "not a cost: software adapter".to_string());
         let mut scores = scores(&anchored[index], pixels, bootstrap)?;
         scores.extend(mean_extras(usable, index));
-        cards.push(OverallCard { variant: index, scores, groups: BTreeMap::new(), cost, cost_note: note });
+        cards.push(OverallCard { variant: index, scores, groups: BTreeMap::new(), cost, cost_note });
     }
     Ok(cards)
 }

@@ -1,22 +1,21 @@
 //! What a later run is compared with: the sums of this one.
 
 use super::Scored;
-use crate::suite::Plan;
 use umbrage_metrics::{Bootstrap, SumTable};
-use umbrage_report::{BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, Provenance};
-use umbrage_shadows::VariantId;
-
-/// Name in the folder of a run.
-pub(crate) const FILE: &str = "sums.json";
+use umbrage_report::{BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, Margins, Provenance};
 
 /// The sums of every window that was scored.
-pub(super) fn of(plan: &Plan, provenance: &Provenance, scored: &[Scored]) -> Baseline {
+pub(super) fn of(
+    (variants, margins): (Vec<String>, Margins),
+    provenance: &Provenance,
+    scored: &[Scored],
+) -> Baseline {
     let mut baseline = Baseline {
         baseline_version: BASELINE_VERSION,
         checksum: String::new(),
         provenance: provenance.clone(),
-        margins: plan.margins.clone(),
-        variants: plan.variants.iter().map(VariantId::name).collect(),
+        margins,
+        variants,
         windows: Vec::new(),
         sums: Vec::new(),
     };

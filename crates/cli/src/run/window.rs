@@ -1,13 +1,14 @@
 //! One window: its views, anchors, truth and tiles; everything that all variants share.
 
+use super::truths::{PIXEL_SAMPLES, Truths};
 use crate::error::CliError;
 use crate::suite::Sampling;
 use crate::views::{past_of, view_of};
 use glam::Vec3;
 use std::time::Instant;
-use umbrage_frame::{AgreementLimits, Anchors, Image, View};
+use umbrage_frame::{Agreement, AgreementLimits, Anchors, Image, View};
 use umbrage_metrics::{Coverage, PanelTruth, Region, TILE_PX, Tiling, counted};
-use umbrage_reference::{Cache, Finder, GroundTruth, Points, PrimaryHits, Reached, Source, TruthSettings};
+use umbrage_reference::{Cache, Finder, PrimaryHits};
 use umbrage_scene::{AreaLight, CameraPath, PathFrame, Scene};
 use umbrage_shadows::{LightMap, Renderer};
 
@@ -27,6 +28,8 @@ pub(crate) enum Readings {
     Anchored,
     /// At anchors and at pixels, for edge crawl.
     Both,
+    /// At pixels alone, with truth as good as at anchors: frames of another engine.
+    Elsewhere,
 }
 
 /// A window, ready for its variants.
@@ -37,7 +40,7 @@ pub(crate) struct Window {
     /// View and light of each frame.
     pub(crate) frames: Vec<(View, AreaLight)>,
     /// Per frame, the views of those before it, newest first, also from before the window.
-    pasts: Vec<Vec<View>>,
+    pub(super) pasts: Vec<Vec<View>>,
     pub(crate) anchors: Anchors,
     /// At the anchors.
     pub(crate) truth: PanelTruth,
@@ -48,9 +51,9 @@ pub(crate) struct Window {
     pub(crate) truth_key: String,
     /// Reflectance and cosine to the light per pixel of the middle frame.
     pub(crate) shading: Image<Vec3>,
-    coverage: Coverage,
-    truth_secs: Option<f64>,
-    notes: Vec<String>,
+    pub(super) coverage: Coverage,
+    pub(super) truth_secs: Option<f64>,
+    pub(super) notes: Vec<String>,
 }
 
 /// What a scorecard says about a window.
@@ -68,20 +71,11 @@ pub(crate) struct Facts {
     pub(crate) notes: Vec<String>,
 }
 
-/// Truth of the pixel reading: unbiased at any number of samples, and only used for the difference
-/// between the two readings.
-pub(crate) const PIXEL_SAMPLES: u32 = 64;
-
-/// Sun discs smaller than a sample could resolve are exact anyway; these seeds keep the estimates
-/// of anchors and pixels apart.
-const ANCHOR_SEED: u64 = 1;
-const PIXEL_SEED: u64 = 2;
-
 impl Window {
     /// Finds anchors, truth, agreement and tiles.
     pub(crate) fn new(
         request: &Request<'_>,
-        (finder, cache, renderer): (&mut Finder<'_>, &Cache, &mut Renderer<'_>),
+        (finder, cache, mut renderer): (&mut Finder<'_>, &Cache, Option<&mut Renderer<'_>>),
         sampling: &Sampling,
     ) -> Result<Self, CliError> {
         let started = Instant::now();
@@ -97,8 +91,15 @@ impl Window {
         let (truth, facing) = truths.at_anchors(&hits.points(), &frames, sampling)?;
         let (mut agreements, mut witnesses) = (Vec::new(), Vec::new());
         for (index, (view, light)) in frames.iter().enumerate() {
-            let raster = renderer.gbuffer(view, light)?;
             let limits = AgreementLimits::default();
+            let Some(renderer) = renderer.as_deref_mut() else {
+                // Nobody else's surfaces are known: an anchor counts where truth sees it.
+                let own = anchors.agreement(&tracer.primary(view).gbuffer, limits);
+                agreements.push(own.clone());
+                witnesses.push(Agreement { same: vec![true; own.same.len()], outside: 0, other_surface: 0 });
+                continue;
+            };
+            let raster = renderer.gbuffer(view, light)?;
             agreements.push(anchors.agreement(&raster, limits));
             // What truth itself sees in this very frame; the middle one has been traced.
             witnesses.push(match index == frames.len() / 2 {
@@ -108,14 +109,21 @@ impl Window {
         }
         let (counts, coverage) = counted(&anchors, &facing, &agreements, &witnesses)?;
         let tiling = Tiling::new(&anchors, &truth, &counts, TILE_PX)?;
-        let pixel_truth = match request.readings {
-            Readings::Both if frames.len() > 1 => {
-                Some(truths.at_pixels(&frames, (&anchors, &truth, &tiling))?)
-            }
-            _ => None,
+        let of = |wanted: fn(Region) -> bool| -> Vec<usize> {
+            (0..anchors.len()).filter(|&p| wanted(tiling.regions[p])).collect()
         };
+        let read = match request.readings {
+            Readings::Anchored => None,
+            // The pixel reading is scored in the penumbra alone.
+            Readings::Both => Some((of(|r| r == Region::Penumbra), PIXEL_SAMPLES)),
+            Readings::Elsewhere => Some((of(|r| r != Region::LeftOut), sampling.samples)),
+        };
+        let pixel_truth = read
+            .filter(|_| frames.len() > 1)
+            .map(|(wanted, samples)| truths.at_pixels(&frames, (&anchors, &truth, &wanted), samples))
+            .transpose()?;
         let Truths { computed, mut notes, key, .. } = truths;
-        notes.extend(outside_map_note(&anchors, &renderer.light_map(&middle_light)));
+        notes.extend(renderer.and_then(|r| outside_map_note(&anchors, &r.light_map(&middle_light))));
         Ok(Self {
             scene: request.scene.name.clone(),
             path: request.path.name.clone(),
@@ -132,6 +140,14 @@ impl Window {
             truth_secs: computed.then(|| started.elapsed().as_secs_f64()),
             notes,
         })
+    }
+
+    /// Leaves more points out: those of a picture that says nothing there.
+    pub(super) fn leave_out(&mut self, is_out: &[bool]) -> Result<(), CliError> {
+        let counts: Vec<bool> = (0..self.anchors.len()).map(|p| self.is_counted(p) && !is_out[p]).collect();
+        self.tiling = Tiling::new(&self.anchors, &self.truth, &counts, TILE_PX)?;
+        self.coverage.counted = counts.iter().filter(|&&c| c).count();
+        Ok(())
     }
 
     /// Share of surfaces on which truth and raster disagree in one and the same frame.
@@ -220,131 +236,6 @@ impl Window {
             notes: self.notes.clone(),
         }
     }
-}
-
-/// Truth at anchors and at pixels, through the cache.
-struct Truths<'a, 'b> {
-    finder: &'a mut Finder<'b>,
-    cache: &'a Cache,
-    computed: bool,
-    notes: Vec<String>,
-    key: String,
-}
-
-impl Truths<'_, '_> {
-    fn get(
-        &mut self,
-        points: &Points,
-        light: &AreaLight,
-        settings: TruthSettings,
-    ) -> Result<GroundTruth, CliError> {
-        let key = self.finder.truth_key(points, light, &settings);
-        self.key = format!("{}{key:?}", self.key);
-        let (truth, source) = self.cache.try_truth(key, || self.finder.truth(points, light, &settings))?;
-        match source {
-            Source::Stored => {}
-            Source::Computed => self.computed = true,
-            Source::Repaired => {
-                self.computed = true;
-                self.notes.push("a cached truth was damaged and has been computed again".into());
-            }
-            Source::NotStored(reason) => {
-                self.computed = true;
-                self.notes
-                    .push(format!("truth could not be cached ({reason}): the next run computes it again"));
-            }
-        }
-        Ok(truth)
-    }
-
-    /// Truth at the anchors, once, or once a frame where the light moves; and which face the light
-    /// in all of them.
-    fn at_anchors(
-        &mut self,
-        points: &Points,
-        frames: &[(View, AreaLight)],
-        sampling: &Sampling,
-    ) -> Result<(PanelTruth, Vec<bool>), CliError> {
-        let settings = TruthSettings {
-            samples: sampling.samples,
-            basis_samples: sampling.basis_samples,
-            seed: ANCHOR_SEED,
-            tolerance: sampling.tolerance,
-            ..TruthSettings::default()
-        };
-        let middle = self.get(points, &frames[frames.len() / 2].1, settings)?;
-        if let Some(tolerance) = sampling.tolerance {
-            self.notes.push(reached_note(&middle.reached(tolerance), tolerance));
-        }
-        let mut facing = middle.facing.clone();
-        let moves = frames.iter().any(|f| f.1 != frames[0].1);
-        let (mut halves, count) = if moves { ([vec![], vec![]], frames.len()) } else { (middle.halves, 1) };
-        if moves {
-            for (_, light) in frames {
-                let truth = self.get(points, light, TruthSettings { basis_samples: 0, ..settings })?;
-                let [first, second] = truth.halves;
-                halves[0].extend(first);
-                halves[1].extend(second);
-                facing.iter_mut().zip(&truth.facing).for_each(|(all, &now)| *all &= now);
-            }
-        }
-        Ok((PanelTruth { frames: count, halves, basis: middle.basis, variance: middle.variance }, facing))
-    }
-
-    /// Truth at the surface of the pixel that each penumbra anchor falls into, frame by frame.
-    /// Points outside the penumbra keep the anchor's own: the pixel reading is not scored there.
-    fn at_pixels(
-        &mut self,
-        frames: &[(View, AreaLight)],
-        (anchors, truth, tiling): (&Anchors, &PanelTruth, &Tiling),
-    ) -> Result<PanelTruth, CliError> {
-        let count = anchors.len();
-        let mut halves = [Vec::with_capacity(count * frames.len()), Vec::with_capacity(count * frames.len())];
-        let wanted: Vec<usize> = (0..count).filter(|&p| tiling.regions[p] == Region::Penumbra).collect();
-        for (frame, (view, light)) in frames.iter().enumerate() {
-            let hits = self.finder.tracer().primary(view);
-            let pixels = anchors.pixels_in(view);
-            let seen: Vec<(usize, usize)> = wanted
-                .iter()
-                .filter_map(|&point| Some((point, pixels[point]? as usize)))
-                .filter(|&(_, pixel)| hits.gbuffer.is_hit(pixel))
-                .collect();
-            let pick = |image: &Image<Vec3>| seen.iter().map(|&(_, pixel)| image.pixels()[pixel]).collect();
-            let points = Points {
-                position: pick(&hits.gbuffer.position),
-                normal: pick(&hits.gbuffer.normal),
-                triangle: seen.iter().map(|&(_, pixel)| hits.triangle.pixels()[pixel]).collect(),
-            };
-            let settings = TruthSettings {
-                samples: PIXEL_SAMPLES,
-                basis_samples: 0,
-                seed: PIXEL_SEED + frame as u64,
-                ..TruthSettings::default()
-            };
-            let at_pixels = self.get(&points, light, settings)?;
-            for (half, values) in halves.iter_mut().enumerate() {
-                let start = values.len();
-                values.extend((0..count).map(|point| truth.half(half, frame, point)));
-                for (&(point, _), &value) in seen.iter().zip(&at_pixels.halves[half]) {
-                    values[start + point] = value;
-                }
-            }
-        }
-        let (basis, variance) = (truth.basis.clone(), truth.variance.clone());
-        Ok(PanelTruth { frames: frames.len(), halves, basis, variance })
-    }
-}
-
-/// What became of the tolerance, at the middle frame's light.
-pub(crate) fn reached_note(reached: &Reached, tolerance: f32) -> String {
-    format!(
-        "truth within {tolerance}: its standard error is {:.5} (RMS), {:.5} at most, above the tolerance at {:.2} % of the \
-         points; {:.0} samples a point on average",
-        reached.rms,
-        reached.worst,
-        100.0 * reached.above,
-        reached.samples
-    )
 }
 
 /// Most of the anchors that may lie outside the shadow map, where everything is lit, without a word.

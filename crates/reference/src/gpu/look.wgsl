@@ -20,6 +20,9 @@ const HIDDEN = 0xfffffffeu;
 const FOR_CPU = 0xfffffffdu;
 const AGAIN = 0xfffffffcu;
 
+// The basis' share before its pass: not a number.
+const UNSEEN = 0xffffffffu;
+
 var<workgroup> kept: array<u32, KEPT>;
 // How many are listed; above, whether one hides everything, and whether a sample is visible still.
 var<workgroup> tally: atomic<u32>;

@@ -157,7 +157,17 @@ impl<'a> GpuTracer<'a> {
         points.check();
         self.share = Share { kernels: Some(KernelSeconds::default()), ..Share::default() };
         match settings.tolerance {
-            Some(tolerance) => refined(points, settings, tolerance, |p, s| self.equal(p, light, s)),
+            Some(tolerance) => {
+                let mut pilot = true;
+                refined(points, settings, tolerance, |p, s| {
+                    let found = self.equal(p, light, s);
+                    // Of the pilot nothing is kept but its time.
+                    if std::mem::take(&mut pilot) {
+                        self.share = Share { kernels: self.share.kernels, ..Share::default() };
+                    }
+                    found
+                })
+            }
             None => self.equal(points, light, settings),
         }
     }
@@ -218,6 +228,8 @@ impl<'a> GpuTracer<'a> {
 
 /// Fills in what the GPU found; the points that are the CPU's.
 fn decode(words: &[u32], results: &[[u32; 4]], truth: &mut GroundTruth) -> Vec<u32> {
+    // NaN: the basis' pass was lost.
+    let wants_basis = !truth.basis.is_empty();
     let [first, second] = &mut truth.halves;
     let mean = truth.mean.par_iter_mut().zip(first).zip(second).zip(&mut truth.variance);
     let into = mean.zip(&mut truth.facing);
@@ -226,7 +238,8 @@ fn decode(words: &[u32], results: &[[u32; 4]], truth: &mut GroundTruth) -> Vec<u
         .zip(from)
         .enumerate()
         .filter_map(|(i, (((((mean, first), second), variance), facing), (&word, result)))| {
-            let Some(point) = point(word, result) else { return Some(i as u32) };
+            let found = point(word, result).filter(|p| !wants_basis || !p.basis.is_nan());
+            let Some(point) = found else { return Some(i as u32) };
             (*mean, [*first, *second], *variance) = (point.mean, point.halves, point.variance);
             *facing = point.facing;
             None

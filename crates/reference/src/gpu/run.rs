@@ -163,8 +163,8 @@ impl GpuTracer<'_> {
             run(look, &[corners, receivers, groups, planes, pool, heads, results, order], Some(PARTS));
         }
         device.queue.submit([encoder.finish()]);
-        device.check()?;
-        Ok(())
+        // The device's patience is for a batch, not for a whole picture on a slow driver.
+        Ok(device.wait()?)
     }
 
     /// The groups that found no room in the pool.

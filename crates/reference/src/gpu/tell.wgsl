@@ -26,7 +26,8 @@ fn tell(to: u32, lane: u32) {
             // Of twice what a half holds: shares, not counts, matter.
             results[to].z = bitcast<u32>(f32(visible) / f32(max(inside, 1u)));
         } else {
-            results[to] = vec4<u32>(halves, 0u, bitcast<u32>(variance(visible, inside)));
+            // No share yet: what a lost pass leaves is no number.
+            results[to] = vec4<u32>(halves, UNSEEN, bitcast<u32>(variance(visible, inside)));
         }
     }
     workgroupBarrier();

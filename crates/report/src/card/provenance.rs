@@ -24,6 +24,9 @@ pub struct Provenance {
     pub frames: u32,
     /// Pattern seeds per frame, S, of a variant with randomness.
     pub seeds: u32,
+    /// The first of them; other seeds draw other patterns, which a gate allows for.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub first_seed: u32,
     /// Side of a tile in pixels of the middle frame: what intervals are drawn over.
     pub tile_px: u32,
     /// Side of the shadow map in texels.
@@ -34,6 +37,10 @@ pub struct Provenance {
     pub scenes: Vec<SceneCard>,
     /// Anything else that a reader should know.
     pub notes: Vec<String>,
+}
+
+fn is_zero(seed: &u32) -> bool {
+    *seed == 0
 }
 
 /// What rendered the variants.
@@ -52,12 +59,15 @@ pub struct AdapterCard {
 }
 
 /// How truth was made.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TruthCard {
     /// Samples a point in each of the two independent halves.
     pub samples_per_half: u32,
     /// Samples a point in the third estimate, the basis of the projection and of the regions.
     pub basis_samples: u32,
+    /// Standard error that was wanted at each point; none: as many samples at all points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f32>,
     /// In words: "path traced, Owen-scrambled Sobol".
     pub method: String,
 }

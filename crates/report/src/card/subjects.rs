@@ -50,6 +50,8 @@ pub enum Calibration {
     AsPrinted,
     /// Kernel sizes derived from the light of the scene.
     LightMatched,
+    /// Another program's frames: its constants are its own.
+    Elsewhere,
 }
 
 impl Calibration {
@@ -58,6 +60,7 @@ impl Calibration {
         match self {
             Self::AsPrinted => "as-printed",
             Self::LightMatched => "light-matched",
+            Self::Elsewhere => "elsewhere",
         }
     }
 
@@ -66,6 +69,7 @@ impl Calibration {
         match self {
             Self::AsPrinted => "as printed",
             Self::LightMatched => "light-matched",
+            Self::Elsewhere => "from elsewhere",
         }
     }
 }

@@ -11,6 +11,9 @@ use umbrage_metrics::SumTable;
 /// The version of baseline files that this crate writes, and the only one that it reads.
 pub const BASELINE_VERSION: u32 = 1;
 
+/// Name of the sums in the folder of a run.
+pub const SUMS: &str = "sums.json";
+
 /// The sums of a run that a paired comparison needs. `sums.json` in a run's folder; a baseline once it is
 /// accepted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -131,6 +134,11 @@ impl Baseline {
                 .chain(sums.spread.iter_mut().flatten().flatten())
                 .for_each(|v| *v = seven_digits(*v));
         }
+    }
+
+    /// Whether there is nothing in it that a later run could be compared with.
+    pub fn is_empty(&self) -> bool {
+        self.windows.is_empty() || self.sums.is_empty()
     }
 
     fn sum(&self) -> Result<String, ReportError> {

@@ -20,6 +20,9 @@ pub struct GateCard {
     pub accept: String,
     /// Variants and windows that the baseline does not know.
     pub new: Vec<String>,
+    /// Margins that were others when the baseline was made; the run's count.
+    #[serde(default)]
+    pub margins_changed: Vec<String>,
     /// One a scene, path, variant and score; and one a variant and score over all windows.
     pub cases: Vec<GateCase>,
 }
@@ -54,7 +57,7 @@ pub struct GateCase {
     pub variant: String,
     /// Id of the score.
     pub metric: String,
-    /// The frame that adds most to the motion that the baseline had not.
+    /// Of swimming: the frame that adds most to the motion that the baseline had not.
     pub worst_frame: Option<u32>,
     /// Left, top, width and height in pixels of the middle frame: where the score got worst.
     pub worst_place: Option<[u32; 4]>,
@@ -141,7 +144,7 @@ impl GateCard {
     }
 }
 
-const GATE: &str = "gate.json";
+pub(crate) const GATE: &str = "gate.json";
 
 impl GateCase {
     /// "colonnade, P1" or "all windows".
@@ -179,7 +182,7 @@ impl GateCase {
             short(c.margin)
         );
         match c.verdict {
-            Verdict::Regressed => format!("{head}; would pass at {}", short(c.would_pass_at)),
+            Verdict::Regressed => format!("{head}; would pass at {}", short_up(c.would_pass_at)),
             Verdict::Inconclusive => {
                 let wanted = c.needs_times.map_or_else(
                     || "the harm is the margin itself".into(),
@@ -192,6 +195,15 @@ impl GateCase {
     }
 }
 
+/// Three significant digits, never less than the value itself: what is to pass must pass when it is copied.
+pub(crate) fn short_up(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let unit = 10f64.powi(value.abs().log10().floor() as i32 - 2);
+    short((value / unit).ceil() * unit)
+}
+
 /// Three significant digits.
 pub(crate) fn short(value: f64) -> String {
     if value == 0.0 {
@@ -202,5 +214,21 @@ pub(crate) fn short(value: f64) -> String {
         format!("{value:.*}", (2 - decade).max(0) as usize)
     } else {
         format!("{value:.2e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A threshold that is copied from the page must not fail by its last digit.
+    #[test]
+    fn thresholds_are_rounded_up() {
+        let pairs = [(0.012341, "0.0124"), (1.0, "1.00"), (0.0, "0"), (2.345e-6, "2.35e-6"), (99.91, "100")];
+        for (value, text) in pairs {
+            assert_eq!(short_up(value), text);
+            assert!(short_up(value).parse::<f64>().expect("a number") >= value);
+        }
+        assert_eq!(short(0.012341), "0.0123");
     }
 }

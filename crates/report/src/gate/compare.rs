@@ -4,7 +4,9 @@ use super::baseline::{Baseline, BaselineSums, BaselineWindow, adapter_class};
 use super::card::{GateCard, GateCase, Side};
 use super::margins::gated;
 use crate::{Provenance, ReportError};
-use umbrage_metrics::{PooledNumber, SeedSpread, SumTable, Trial, gate_table, judge, pooled_reading};
+use umbrage_metrics::{
+    PooledNumber, Quantity, SeedSpread, SumTable, Trial, gate_table, judge, pooled_reading,
+};
 
 /// Why two runs do not compare: every reason, not the first.
 pub fn not_comparable(base: &Baseline, run: &Baseline) -> Vec<String> {
@@ -22,7 +24,9 @@ pub fn not_comparable(base: &Baseline, run: &Baseline) -> Vec<String> {
     differ("side of a tile", b.tile_px.to_string(), r.tile_px.to_string());
     differ("side of the shadow map", b.shadow_map_texels.to_string(), r.shadow_map_texels.to_string());
     differ("samples of truth", b.truth.samples_per_half.to_string(), r.truth.samples_per_half.to_string());
-    differ("truth", b.truth.method.clone(), r.truth.method.clone());
+    let tolerance = |t: Option<f32>| t.map_or_else(|| "none".into(), |t| t.to_string());
+    differ("tolerance of truth", tolerance(b.truth.tolerance), tolerance(r.truth.tolerance));
+    differ("truth", truth_class(&b.truth.method), truth_class(&r.truth.method));
     for scene in &b.scenes {
         if let Some(now) = r.scenes.iter().find(|s| s.name == scene.name) {
             differ(
@@ -52,6 +56,11 @@ pub fn not_comparable(base: &Baseline, run: &Baseline) -> Vec<String> {
         reasons.push(format!("{variant} is in the baseline and not in the run"));
     }
     reasons
+}
+
+/// A driver's version is no other truth: it is said last, in brackets.
+fn truth_class(method: &str) -> String {
+    method.trim_end().strip_suffix(')').and_then(|m| m.rsplit_once(" (")).map_or(method, |(m, _)| m).into()
 }
 
 fn size(p: &Provenance) -> String {
@@ -98,7 +107,7 @@ pub fn compare(base: &Baseline, run: &Baseline) -> Result<GateCard, ReportError>
     for (variant, pairs) in base.variants.iter().zip(&pairs) {
         for (metric, number) in gated() {
             for (index, pair) in pairs.iter().enumerate() {
-                let margin = run.margins.of(Some(&pair.window.scene), number);
+                let margin = run.margins.of(&pair.window.scene, number);
                 let [base, now] = [0, 1].map(|side| pooled_reading(number, &[pair.table(number, side)]));
                 trials.push(Trial { number, base, now, margin });
                 cases.push((variant, metric, Some(index)));
@@ -108,13 +117,16 @@ pub fn compare(base: &Baseline, run: &Baseline) -> Result<GateCard, ReportError>
                     let windows: Vec<_> = pairs.iter().map(|p| p.table(number, side)).collect();
                     pooled_reading(number, &windows)
                 };
-                let margin = run.margins.of(None, number);
+                let margin = run.margins.mean(pairs.iter().map(|p| p.window.scene.as_str()), number);
                 trials.push(Trial { number, base: all(0), now: all(1), margin });
                 cases.push((variant, metric, None));
             }
         }
     }
     let changes = judge(&trials).map_err(|e| ReportError::NotComparable(vec![e.to_string()]))?;
+    if changes.iter().all(Option::is_none) {
+        return Err(ReportError::NotComparable(vec!["no score is defined on both sides".into()]));
+    }
     let place = |v: &String| base.variants.iter().position(|b| b == v).unwrap_or_default();
     let cases =
         cases.into_iter().zip(changes).zip(&trials).map(|(((variant, metric, index), change), trial)| {
@@ -130,7 +142,10 @@ pub fn compare(base: &Baseline, run: &Baseline) -> Result<GateCard, ReportError>
                 first_frame: pair.map(|p| p.window.first_frame),
                 variant: variant.clone(),
                 metric: metric.into(),
-                worst_frame: pair.and_then(Pair::worst_frame),
+                // Frames are kept for motion alone.
+                worst_frame: pair
+                    .filter(|_| trial.number == PooledNumber::Cell(Quantity::Swimming))
+                    .and_then(Pair::worst_frame),
                 worst_place: cluster,
                 change: change.map(Into::into),
                 reproduce: None,
@@ -139,8 +154,9 @@ pub fn compare(base: &Baseline, run: &Baseline) -> Result<GateCard, ReportError>
         });
     let cases = cases.collect();
     let new = new_things(base, &run);
+    let margins_changed = base.margins.changes(&run.margins);
     let [base, run] = [&base.provenance, &run.provenance].map(Side::from);
-    Ok(GateCard { base, run, baseline: String::new(), accept: String::new(), new, cases })
+    Ok(GateCard { base, run, baseline: String::new(), accept: String::new(), new, margins_changed, cases })
 }
 
 fn pairs<'a>(base: &'a Baseline, run: &'a Baseline, variant: &str) -> Result<Vec<Pair<'a>>, ReportError> {
@@ -192,7 +208,7 @@ impl Pair<'_> {
                 table.rows.iter().enumerate().filter(|(i, _)| *i != skip).map(|(_, r)| r.clone()).collect();
             number.of(&[&SumTable { rows }])
         };
-        let harm = |skip: usize| Some(without(now, skip)? - without(base, skip)?);
+        let harm = |skip: usize| Some(number.harm(without(base, skip)?, without(now, skip)?));
         let places = base.rows.iter().enumerate().filter_map(|(i, &(c, r, _))| Some((harm(i)?, [c, r])));
         places.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place)
     }
@@ -210,4 +226,15 @@ fn new_things(base: &Baseline, run: &Baseline) -> Vec<String> {
     let variants = run.variants.iter().filter(|v| !base.variants.contains(v)).cloned();
     let windows = run.windows.iter().filter(|w| !base.windows.iter().any(|b| b.same_place(w)));
     variants.chain(windows.map(|w| format!("{}, {} from frame {}", w.scene, w.path, w.first_frame))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_driver_s_version_is_no_other_truth() {
+        assert_eq!(truth_class("scanlines, on NVIDIA H100 (580.1)"), "scanlines, on NVIDIA H100");
+        assert_eq!(truth_class("scanlines"), "scanlines");
+    }
 }

@@ -10,7 +10,7 @@ use umbrage_metrics::Verdict;
 
 /// As many as a person looks at.
 const MOST: usize = 24;
-const FOLDER: &str = "gate";
+pub(crate) const FOLDER: &str = "gate";
 
 /// Writes `gate/*.png` for the first cases that regressed, and their names into the card.
 ///
@@ -18,6 +18,9 @@ const FOLDER: &str = "gate";
 /// A stored picture that cannot be read, or a file that cannot be written.
 pub fn write_gate_crops(run: &Path, card: &mut GateCard, scores: &Scorecard) -> Result<(), ReportError> {
     let index = read_index(run)?;
+    if run.join(FOLDER).exists() {
+        std::fs::remove_dir_all(run.join(FOLDER)).map_err(ReportError::at(run))?;
+    }
     let regressed = |c: &super::GateCase| c.change.is_some_and(|c| c.verdict == Verdict::Regressed);
     let mut written = 0;
     for case in card.cases.iter_mut().filter(|c| regressed(c)) {

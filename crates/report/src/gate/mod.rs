@@ -6,10 +6,11 @@ mod compare;
 mod crops;
 mod margins;
 
-pub use baseline::{BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow};
+pub use baseline::{BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, SUMS};
 pub use card::{ChangeCard, GateCard, GateCase, Side};
 pub use compare::{compare, not_comparable};
 pub use crops::write_gate_crops;
 pub use margins::{MarginCard, Margins, gated};
 
-pub(crate) use card::short;
+pub(crate) use card::{GATE, short, short_up};
+pub(crate) use crops::FOLDER as CROPS;

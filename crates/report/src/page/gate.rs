@@ -1,6 +1,6 @@
 //! What the gate says.
 
-use crate::gate::{ChangeCard, GateCard, GateCase, short};
+use crate::gate::{ChangeCard, GateCard, GateCase, short, short_up};
 use maud::{Markup, html};
 use umbrage_metrics::Verdict;
 
@@ -26,10 +26,11 @@ pub(super) fn section(gate: &GateCard) -> Markup {
             h2 { "Gate" }
             p.lede {
                 "Compared with " (gate.baseline) " (umbrage " (gate.base.tool_version) ", " (gate.base.date) "): " (gate.counts())
-                ". Same tiles, seeds and frames on both sides; what may fail is corrected for the number of comparisons. "
+                ". Same tiles, frames and number of seeds on both sides; what may fail is corrected for the number of comparisons. "
                 "Accept this run with " code { (gate.accept) } "."
             }
             @if !gate.new.is_empty() { p.note { "Not in the baseline: " (gate.new.join(", ")) "." } }
+            @for change in &gate.margins_changed { p.note { "Margin changed: " (change) "." } }
             @for (verdict, title, open) in [
                 (Regressed, "Regressed", true),
                 (Improved, "Improved", true),
@@ -61,7 +62,7 @@ fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {
                     td { (case.place()) } td { (case.variant) } td { (case.metric.replace('_', " ")) }
                     td.num { (short(c.base)) } td.num { (short(c.now)) } td.num { (short(c.harm.value)) }
                     td.num { (short(c.harm.low)) " to " (short(c.harm.high)) }
-                    td.num { (short(c.margin)) } td.num { (short(c.would_pass_at)) } td.num { (short(c.caught)) }
+                    td.num { (short(c.margin)) } td.num { (short_up(c.would_pass_at)) } td.num { (short(c.caught)) }
                     td { (more(gate, case, c)) }
                 } }
             }

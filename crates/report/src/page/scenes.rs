@@ -28,9 +28,8 @@ pub(super) fn section(card: &Scorecard, book: &Book) -> Markup {
 
 fn window(card: &Scorecard, book: &Book, index: usize) -> Markup {
     let w = &card.windows[index];
-    let of =
-        |calibration| (0..card.variants.len()).filter(move |&v| card.variants[v].calibration == calibration);
-    let printed: Vec<usize> = of(Calibration::AsPrinted).collect();
+    let is_printed = |v: &usize| card.variants[*v].calibration == Calibration::AsPrinted;
+    let (printed, shown): (Vec<usize>, Vec<usize>) = (0..card.variants.len()).partition(is_printed);
     html! {
         article.window id={ "window-" (index) } {
             h3 { (w.scene) " · " (w.path) " " span.muted { (w.speed) } }
@@ -47,7 +46,7 @@ fn window(card: &Scorecard, book: &Book, index: usize) -> Markup {
                         (figure(Some(beauty), "The view", None, ("", ""), html! { "Where this is: the scene, shaded with the true shadow." }))
                     }
                 }
-                @for v in of(Calibration::LightMatched) { (variant(card, book, index, v)) }
+                @for v in shown { (variant(card, book, index, v)) }
                 @if !printed.is_empty() {
                     details {
                         summary { "As printed: " (printed.len()) " more, with the constants of their documents" }

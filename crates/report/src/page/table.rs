@@ -68,7 +68,7 @@ pub(super) fn scores(scope: Comparison) -> Markup {
                     }
                 }
                 // Light-matched is the comparison, as printed the curiosity: it comes second.
-                @for calibration in [Calibration::LightMatched, Calibration::AsPrinted] {
+                @for calibration in [Calibration::Elsewhere, Calibration::LightMatched, Calibration::AsPrinted] {
                     @let rows = rows(scope.card, calibration);
                     @if !rows.is_empty() {
                         tbody.kind data-calibration=(calibration.label()) {
@@ -88,6 +88,7 @@ fn rows(card: &Scorecard, calibration: Calibration) -> Vec<usize> {
 
 fn kind(calibration: Calibration) -> &'static str {
     match calibration {
+        Calibration::Elsewhere => "From elsewhere: frames of another program",
         Calibration::LightMatched => "Light-matched: kernels derived from the light of the scene",
         Calibration::AsPrinted => "As printed: the constants of the document",
     }

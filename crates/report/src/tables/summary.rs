@@ -66,6 +66,9 @@ fn verdict(gate: &GateCard) -> String {
     if !gate.new.is_empty() {
         text += &format!("- not in the baseline: {}\n", markdown(&gate.new.join(", ")));
     }
+    for change in &gate.margins_changed {
+        text += &format!("- margin changed: {}\n", markdown(change));
+    }
     text + "\n"
 }
 

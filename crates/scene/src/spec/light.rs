@@ -1,8 +1,9 @@
 //! `[[light]]`.
 
-use crate::AreaLight;
+use crate::{AreaLight, SceneError};
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// A light as it is written down. Directions may have any length; sizes may be zero.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,7 +50,40 @@ pub enum LightSpec {
     },
 }
 
+/// One light, with or without a head.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum LightFile {
+    Listed { light: Vec<LightSpec> },
+    Bare(LightSpec),
+}
+
 impl LightSpec {
+    /// Reads a file that holds one light, written as in a scene file's `[[light]]`: at the top, or in a
+    /// table of that name.
+    ///
+    /// # Errors
+    /// A file that cannot be read, does not parse, or holds several lights or a value that makes no sense.
+    pub fn read(path: &Path, origin: DVec3) -> Result<AreaLight, SceneError> {
+        let read = |source| SceneError::Read { path: path.to_owned(), source };
+        let text = std::fs::read_to_string(path).map_err(read)?;
+        let file: LightFile =
+            toml::from_str(&text).map_err(|e| SceneError::value(path, e.to_string().trim_end()))?;
+        let spec = match file {
+            LightFile::Bare(spec) => spec,
+            LightFile::Listed { light } => match light.as_slice() {
+                [only] => *only,
+                all => {
+                    return Err(SceneError::value(
+                        path,
+                        format!("has {} lights: one is scored at a time", all.len()),
+                    ));
+                }
+            },
+        };
+        spec.resolve(origin).map_err(|message| SceneError::value(path, message))
+    }
+
     /// The light in a scene whose coordinates are those of the file less `origin`.
     ///
     /// # Errors

@@ -1,0 +1,189 @@
+//! Frames of another program: truth for their cameras, the pixel reading of METRICS section 2, and the same
+//! report as of our own variants.
+
+mod frames;
+mod guesses;
+mod panel;
+mod projection;
+mod without_cameras;
+mod words;
+
+pub(crate) use frames::Frames;
+
+use super::measure::Measured;
+use super::{Scored, pictures, scorecard, sums, window};
+use crate::args::ScoreArgs;
+use crate::clock::Now;
+use crate::error::CliError;
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::suite::{BASIS_SAMPLES, Sampling, WINDOW};
+use guesses::guesses;
+use projection::Shown;
+use std::path::PathBuf;
+use umbrage_metrics::Bootstrap;
+use umbrage_reference::{Cache, Finder, Tracer, TruthGpu};
+use umbrage_report::{Margins, RunWriter, SUMS, Scorecard, WindowPictures};
+use umbrage_scene::{Camera, CameraFile, CameraPath, Scene};
+use window::{Readings, Request, Window};
+
+/// Everything that is decided before the work begins.
+pub(crate) struct ScorePlan {
+    pub(crate) scene: Scene,
+    /// With the light that is scored, in each frame.
+    pub(crate) path: CameraPath,
+    /// The number of each frame of the path.
+    pub(crate) numbers: Vec<u32>,
+    /// Where the cameras were read, unless they are the scene's own.
+    pub(crate) file: Option<CameraFile>,
+    pub(crate) frames: Frames,
+    pub(crate) name: String,
+}
+
+/// Where things go.
+pub(crate) struct ScoreSettings {
+    pub(crate) truth_gpu: Option<TruthGpu>,
+    pub(crate) out: PathBuf,
+    pub(crate) command: String,
+    pub(crate) now: Now,
+}
+
+/// Scores and stores the run; pages are made from it afterwards.
+pub(crate) fn score(
+    plan: &ScorePlan,
+    args: &ScoreArgs,
+    settings: &ScoreSettings,
+) -> Result<(Scorecard, Vec<String>), CliError> {
+    let tracer = Tracer::new(&plan.scene)?;
+    let mut notes: Vec<String> = plan.frames.spare(&plan.numbers);
+    notes.push(match args.no_projection_check {
+        true => "whether the cameras fit the frames was not checked: --no-projection-check".into(),
+        false => check_projection(plan, &tracer)?,
+    });
+    let mut finder = Finder::new(&tracer, settings.truth_gpu.as_ref())?;
+    let cache = Cache::open(args.cache.join("truth"))?;
+    let mut writer = RunWriter::create(&settings.out)?;
+    let sampling = sampling(plan, args);
+    let length = sampling.window as usize;
+    let windows = plan.numbers.len() / length;
+    let mut progress = Progress::new((windows * (1 + plan.frames.subjects.len())) as u64);
+    let mut scored = Vec::new();
+    // From the middle, as paths of our own.
+    let start = (plan.numbers.len() - windows * length) / 2;
+    for index in 0..windows {
+        let first = start + index * length;
+        let numbers = &plan.numbers[first..first + length];
+        progress.say(format!("{}, frames {} to {}: truth", plan.path.name, numbers[0], numbers[length - 1]));
+        let request = Request {
+            scene: &plan.scene,
+            path: &plan.path,
+            first: numbers[0],
+            frames: &plan.path.frames[first..first + length],
+            readings: Readings::Elsewhere,
+        };
+        let mut window = Window::new(&request, (&mut finder, &cache, None), &sampling)?;
+        panel::leave_out_the_undefined(&mut window, (&plan.frames, numbers))?;
+        progress.advance(1);
+        writer.window_pictures(
+            index,
+            &WindowPictures { truth: pictures::truth(&window), beauty: Some(window.beauty()) },
+        )?;
+        let mut variants = Vec::new();
+        for (place, subject) in plan.frames.subjects.iter().enumerate() {
+            interrupt::check(&args.cache)?;
+            progress.say(format!("{}, frames from {}: {}", plan.path.name, numbers[0], subject.name));
+            let measured: Measured = panel::measure(&mut window, (&plan.frames, numbers), subject)?;
+            writer.variant_pictures(index, place, &measured.pictures)?;
+            variants.push(measured.without_pictures());
+            progress.advance(1);
+        }
+        scored.push(Scored { window: window.facts(&plan.path), variants });
+    }
+    progress.finish();
+    if let (Some(last), left @ 1..) = (scored.last_mut(), plan.numbers.len() - windows * length) {
+        last.window.notes.push(format!("{left} more frames do not fill a window and are not scored"));
+    }
+    let provenance = words::provenance(plan, (args, &sampling, settings), notes.clone());
+    finish(writer, (provenance, words::subjects(&plan.frames)), &scored, settings).map(|card| (card, notes))
+}
+
+/// The scorecard and the sums of a run of frames from elsewhere.
+fn finish(
+    writer: RunWriter,
+    (provenance, subjects): (umbrage_report::Provenance, scorecard::Subjects),
+    scored: &[Scored],
+    settings: &ScoreSettings,
+) -> Result<Scorecard, CliError> {
+    let names: Vec<String> =
+        subjects.cards.iter().map(|c| format!("{}/{}", c.name, c.calibration.id())).collect();
+    let single: Vec<bool> = subjects.cards.iter().map(|c| c.taps == words::ONE_TAKE).collect();
+    let mut card = scorecard::assemble(provenance, subjects, scored, &Bootstrap::default())?;
+    words::relabel(&mut card, &single);
+    sums::of((names, Margins::default()), &card.provenance, scored).save(&settings.out.join(SUMS))?;
+    writer.finish(&card)?;
+    if scored.iter().all(|s| s.window.coverage.counted == 0) {
+        return Err(CliError::NothingScored("no surface point of the frames counts".into()));
+    }
+    Ok(card)
+}
+
+/// Frames without cameras against true frames, one by one.
+pub(crate) fn score_without_cameras(
+    frames: &Frames,
+    reference: &umbrage_frame::NumberedFiles,
+    settings: &ScoreSettings,
+) -> Result<(Scorecard, Vec<String>), CliError> {
+    let mut writer = RunWriter::create(&settings.out)?;
+    let numbers: Vec<u32> = reference.files.keys().copied().collect();
+    frames.check_numbers(&numbers)?;
+    let mut scored = Vec::new();
+    for (index, &number) in numbers.iter().enumerate() {
+        let mut window = without_cameras::window(frames, reference, number)?;
+        writer.window_pictures(index, &WindowPictures { truth: pictures::truth(&window), beauty: None })?;
+        let mut variants = Vec::new();
+        for (place, subject) in frames.subjects.iter().enumerate() {
+            let measured = panel::measure(&mut window, (frames, &[number]), subject)?;
+            writer.variant_pictures(index, place, &measured.pictures)?;
+            variants.push(measured.without_pictures());
+        }
+        scored.push(Scored { window: without_cameras::facts(&window, frames.size), variants });
+    }
+    let notes = vec![without_cameras::NOTE.to_string()];
+    let provenance = words::provenance_without_cameras(frames, settings, notes.clone());
+    finish(writer, (provenance, words::subjects(frames)), &scored, settings).map(|card| (card, notes))
+}
+
+fn sampling(plan: &ScorePlan, args: &ScoreArgs) -> Sampling {
+    let takes = plan.frames.subjects.iter().map(|s| s.takes.len()).max().unwrap_or(1);
+    Sampling {
+        size: plan.frames.size,
+        window: WINDOW.min(plan.numbers.len() as u32),
+        seeds: takes as u32,
+        first_seed: 0,
+        samples: args.samples,
+        basis_samples: BASIS_SAMPLES,
+        tolerance: args.tolerance,
+        plant: None,
+    }
+}
+
+/// The first, the middle and the last frame of the first subject.
+fn check_projection(plan: &ScorePlan, tracer: &Tracer) -> Result<String, CliError> {
+    let count = plan.numbers.len();
+    let mut places = vec![0, count / 2, count - 1];
+    places.dedup();
+    let Some(take) = plan.frames.subjects.first().and_then(|s| s.takes.first()) else {
+        return Err(CliError::Usage("nothing to score".into()));
+    };
+    let mut shown = Vec::new();
+    for place in places {
+        let mask = plan.frames.mask(take, plan.numbers[place])?;
+        shown.push(Shown { place, mask: mask.image, depth: mask.depth });
+    }
+    let cameras: Vec<Camera> = plan.path.frames.iter().map(|f| f.camera).collect();
+    let (width, height) = plan.frames.size;
+    let file = plan.file.as_ref().map(|file| (file, plan.scene.origin));
+    let all = guesses(&cameras, width as f32 / height as f32, file);
+    let light = plan.path.frames[count / 2].light;
+    projection::check(tracer, (&light, plan.frames.size), &shown, (&cameras, &all))
+}

@@ -1,0 +1,312 @@
+//! Frames of another engine: scored, and refused where cameras or files are wrong.
+
+use std::path::{Path, PathBuf};
+use umbrage_frame::{Image, Layer, read_exr, write_exr};
+use umbrage_scene::{Camera, Scene};
+use umbrage_tests::{Card, Ran, run, umbrage};
+
+/// Five frames of a path with parallax, as another engine would hand them over: truth itself, with depth.
+struct Handed {
+    home: tempfile::TempDir,
+    cameras: Vec<Camera>,
+}
+
+const FIRST: usize = 50;
+const COUNT: usize = 5;
+const SIZE: &str = "160x90";
+
+impl Handed {
+    fn new() -> Self {
+        let home = tempfile::tempdir().expect("a temporary folder");
+        let scene = Scene::builtin("colonnade").expect("a standard scene");
+        let path = scene.path("P1").expect("a path");
+        // Every tenth frame: 33 cm apart.
+        let frames: Vec<usize> = (0..COUNT).map(|i| FIRST + 10 * i).collect();
+        for (number, frame) in frames.iter().enumerate() {
+            let line = format!(
+                "reference colonnade --path P1 --frame {frame} --size {SIZE} --samples 128 --reference-on cpu --out \
+                 truth.{number:04}.exr"
+            );
+            run(&mut umbrage(home.path(), &line)).ended_with(0);
+        }
+        let cameras = frames.iter().map(|&f| path.frames[f].camera).collect();
+        let handed = Self { home, cameras };
+        handed.rewrite("shadow", |_, image| image.clone());
+        handed.write_cameras("cameras.json", "{}", |c| c.world_from_camera.to_cols_array().map(f64::from));
+        handed
+    }
+
+    fn folder(&self) -> &Path {
+        self.home.path()
+    }
+
+    fn truth(&self, number: usize) -> Vec<Layer> {
+        read_exr(&self.folder().join(format!("truth.{number:04}.exr"))).expect("read")
+    }
+
+    /// Masks alone, changed.
+    fn rewrite(&self, stem: &str, change: impl Fn(usize, &Image<f32>) -> Image<f32>) {
+        for number in 0..COUNT {
+            let layers = self.truth(number);
+            let mask = &layers.iter().find(|l| l.0 == "reference.V").expect("a shadow").1;
+            let file = self.folder().join(format!("{stem}.{number:04}.exr"));
+            write_exr(&file, &[("shadow.V".into(), change(number, mask))]).expect("written");
+        }
+    }
+
+    fn write_cameras(&self, file: &str, convention: &str, numbers: impl Fn(&Camera) -> [f64; 16]) {
+        let frame = |(i, c): (usize, &Camera)| {
+            format!(
+                "{{\"index\": {i}, \"world_from_camera\": {:?}, \"yfov\": {}}}",
+                numbers(c),
+                c.yfov_radians
+            )
+        };
+        let frames: Vec<String> = self.cameras.iter().enumerate().map(frame).collect();
+        let text =
+            format!("{{\"version\": 1, \"convention\": {convention}, \"frames\": [{}]}}", frames.join(",\n"));
+        std::fs::write(self.folder().join(file), text).expect("written");
+    }
+
+    fn score(&self, more: &str) -> Ran {
+        let line =
+            format!("score --scene colonnade --samples 64 --reference-on cpu --cache cache --out run {more}");
+        run(&mut umbrage(self.folder(), &line))
+    }
+}
+
+/// By depth, and by the shadow alone.
+const WAYS: [&str; 2] = ["--frames truth.####.exr --channel reference.V", "--frames shadow.####.exr"];
+
+#[test]
+fn truth_scores_at_its_noise() {
+    let handed = Handed::new();
+    let ran = handed.score(&format!("--cameras cameras.json {}", WAYS[0])).ended_with(0);
+    assert!(ran.stderr.contains("the cameras fit the frames: 0.0"), "{}", ran.stderr);
+    let card = Card::load(&handed.folder().join("run"));
+    let (_, _, scores) = card.results()[0];
+    // A fresh estimate of 256 samples has a standard error of .006 on average in this penumbra, and less
+    // than .01 anywhere but at single points.
+    let error = scores["error"]["value"].as_f64().expect("ERROR");
+    assert!(error < 0.01, "{error}");
+    for id in ["noise", "edge_crawl"] {
+        assert!(scores[id]["not_measured"].is_string(), "{id}: {}", scores[id]);
+    }
+    // Several takes have noise; a name groups them.
+    handed.rewrite("take", |n, image| noisy(image, 7 + n as u32));
+    handed.rewrite("more", |n, image| noisy(image, 90 + n as u32));
+    let takes = "--cameras cameras.json --frames mine=take.####.exr --frames mine=more.####.exr";
+    handed.score(takes).ended_with(0);
+    let card = Card::load(&handed.folder().join("run"));
+    let (_, _, scores) = card.results()[0];
+    // Uniform noise of +-.1 has a variance of .2^2 / 12 = 3.3e-3; clamped at 0 or 1, .1^2 / 6 - .025^2 = 1.04e-3.
+    let noise = scores["noise"]["value"].as_f64().expect("noise");
+    assert!((1.0e-3..3.4e-3).contains(&noise), "{noise}");
+    // The page opens and says what this is.
+    let page = std::fs::read_to_string(handed.folder().join("run/index.html")).expect("a page");
+    assert!(page.contains("from elsewhere") && page.contains("with edge crawl"));
+}
+
+fn noisy(image: &Image<f32>, seed: u32) -> Image<f32> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9) | 1;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 17;
+        state ^= state << 5;
+        state as f32 / u32::MAX as f32
+    };
+    image.map(|v| (v + 0.2 * next() - 0.1).clamp(0.0, 1.0))
+}
+
+fn numbers(m: glam::Mat4) -> [f64; 16] {
+    m.to_cols_array().map(f64::from)
+}
+
+/// Each of the usual mistakes is refused, by depth and by the shadow alone, and called by its name.
+#[test]
+fn wrong_cameras_are_refused_by_name() {
+    use glam::{Mat4, Vec3};
+    let handed = Handed::new();
+    for way in WAYS {
+        handed.score(&format!("--cameras cameras.json {way}")).ended_with(0);
+        let refused = |cameras: &str, words: &str| {
+            let ran = handed.score(&format!("--cameras {cameras} {way}")).ended_with(3);
+            assert!(ran.stderr.contains(words) && ran.stderr.contains("help:"), "{way}: {}", ran.stderr);
+        };
+        // Unity's numbers: x negated in the world, z in the camera.
+        let unity = |c: &Camera| {
+            let (world, camera) = (Vec3::new(-1.0, 1.0, 1.0), Vec3::new(1.0, 1.0, -1.0));
+            numbers(Mat4::from_scale(world) * c.world_from_camera * Mat4::from_scale(camera))
+        };
+        handed.write_cameras("unity.json", "{}", unity);
+        refused("unity.json", "read as unity writes them");
+        handed.score(&format!("--cameras unity.json --convention unity {way}")).ended_with(0);
+        handed.write_cameras("cm.json", "{}", |c| {
+            let mut m = c.world_from_camera;
+            m.w_axis = (m.w_axis.truncate() * 100.0).extend(1.0);
+            numbers(m)
+        });
+        refused("cm.json", "centimetres");
+        let wide = std::fs::read_to_string(handed.folder().join("cameras.json")).expect("text");
+        let yfov = handed.cameras[0].yfov_radians;
+        let wrong = format!("\"yfov\": {}", 2.0 * ((0.5 * yfov).tan() * 1.05).atan());
+        std::fs::write(handed.folder().join("wide.json"), wide.replace(&format!("\"yfov\": {yfov}"), &wrong))
+            .expect("written");
+        refused("wide.json", "vertical field of view of");
+        handed.write_cameras("view.json", "{}", |c| numbers(c.world_from_camera.inverse()));
+        refused("view.json", "world to camera");
+        // Each camera is the one before.
+        let later: String = (0..COUNT).rev().fold(wide.clone(), |text, i| {
+            text.replace(&format!("\"index\": {i},"), &format!("\"index\": {},", i + 1))
+        });
+        let later = later.replace(&format!("\"index\": {COUNT},"), "\"index\": 0,");
+        std::fs::write(handed.folder().join("later.json"), later).expect("written");
+        refused("later.json", "off by one");
+    }
+    // Pictures: upside down, and mirrored.
+    handed.rewrite("down", |_, i| Image::from_fn(i.width(), i.height(), |x, y| *i.at(x, i.height() - 1 - y)));
+    let ran = handed.score("--cameras cameras.json --frames down.####.exr").ended_with(3);
+    assert!(ran.stderr.contains("upside down"), "{}", ran.stderr);
+    handed
+        .rewrite("mirror", |_, i| Image::from_fn(i.width(), i.height(), |x, y| *i.at(i.width() - 1 - x, y)));
+    let ran = handed.score("--cameras cameras.json --frames mirror.####.exr").ended_with(3);
+    assert!(ran.stderr.contains("left and right"), "{}", ran.stderr);
+    // Something else entirely, and the way round it.
+    handed.rewrite("other", |n, i| noisy(&Image::filled(i.width(), i.height(), 0.5), n as u32 + 1));
+    let ran = handed.score("--cameras cameras.json --frames other.####.exr").ended_with(3);
+    assert!(ran.stderr.contains("no usual mistake explains it"), "{}", ran.stderr);
+    handed.score("--cameras cameras.json --frames other.####.exr --no-projection-check").ended_with(0);
+}
+
+/// Pictures with the shadow in them, against pictures without.
+#[test]
+fn a_ratio_of_pictures_is_a_shadow() {
+    let handed = Handed::new();
+    for number in 0..COUNT {
+        let layers = handed.truth(number);
+        let mask = &layers.iter().find(|l| l.0 == "reference.V").expect("a shadow").1;
+        // Some texture, a sky that adds light, and a corner without any light of the lamp.
+        let light = |x: u32, y: u32| if x < 8 { 0.0 } else { 0.3 + 0.1 * ((x / 8 + y / 8) % 2) as f32 };
+        let picture = |factor: &dyn Fn(u32, u32) -> f32| {
+            Image::from_fn(mask.width(), mask.height(), |x, y| 0.05 + light(x, y) * factor(x, y))
+        };
+        let all = [
+            ("lit", picture(&|x, y| *mask.at(x, y))),
+            ("bright", picture(&|_, _| 1.0)),
+            ("dim", picture(&|_, _| 0.0)),
+        ];
+        for (stem, image) in all {
+            let rgb: Vec<Layer> = ["R", "G", "B"].iter().map(|c| (c.to_string(), image.clone())).collect();
+            write_exr(&handed.folder().join(format!("{stem}.{number:04}.exr")), &rgb).expect("written");
+        }
+    }
+    let line =
+        "--cameras cameras.json --frames lit.####.exr --unshadowed bright.####.exr --ambient dim.####.exr";
+    let ran = handed.score(line).ended_with(0);
+    let card = Card::load(&handed.folder().join("run"));
+    assert!(card.results()[0].2["error"]["value"].as_f64().expect("ERROR") < 0.01, "{}", ran.stderr);
+    let notes = card.windows()[0]["notes"].to_string();
+    assert!(notes.contains("without shadows they have no light"), "{notes}");
+    // A picture is not taken for a shadow.
+    for number in 0..COUNT {
+        let file = |stem: &str| -> PathBuf { handed.folder().join(format!("{stem}.{number:04}.exr")) };
+        let brighter: Vec<Layer> = read_exr(&file("bright"))
+            .expect("read")
+            .into_iter()
+            .map(|(n, i)| (n, i.map(|v| v * 9.0)))
+            .collect();
+        write_exr(&file("glare"), &brighter).expect("written");
+    }
+    handed.score("--cameras cameras.json --frames glare.####.exr").ended_with(4).says("outside 0 to 1");
+}
+
+#[test]
+fn pngs_need_their_curve_and_show_their_floor() {
+    let handed = Handed::new();
+    for number in 0..COUNT {
+        let layers = handed.truth(number);
+        let mask = &layers.iter().find(|l| l.0 == "reference.V").expect("a shadow").1;
+        let code = |v: f32| if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+        let grey = image::GrayImage::from_fn(mask.width(), mask.height(), |x, y| {
+            image::Luma([(255.0 * code(*mask.at(x, y))).round() as u8])
+        });
+        grey.save(handed.folder().join(format!("grey_{number}.png"))).expect("written");
+    }
+    let line = "--cameras cameras.json --frames grey_#.png";
+    handed.score(line).ended_with(2).says("--transfer srgb");
+    handed.score(&format!("{line} --transfer srgb")).ended_with(0);
+    let card = Card::load(&handed.folder().join("run"));
+    assert!(card.results()[0].2["error"]["value"].as_f64().expect("ERROR") < 0.012);
+    let notes = card.windows()[0]["notes"].to_string();
+    assert!(notes.contains("8 bits make an error of"), "{notes}");
+}
+
+#[test]
+fn frames_without_cameras_are_scored_one_by_one() {
+    let handed = Handed::new();
+    handed.rewrite("mine", |n, image| noisy(image, n as u32 + 3));
+    let line = "score --frames mine.####.exr --reference-frames shadow.####.exr --out run";
+    let ran = run(&mut umbrage(handed.folder(), line)).ended_with(0);
+    assert!(ran.stderr.contains("per-frame scores only"), "{}", ran.stderr);
+    let card = Card::load(&handed.folder().join("run"));
+    assert_eq!(card.windows().len(), COUNT);
+    for (_, _, scores) in card.results() {
+        let error = scores["error"]["value"].as_f64().expect("ERROR");
+        // +-.1 uniform: .058; clamping takes some off.
+        assert!((0.04..0.06).contains(&error), "{error}");
+        assert!(scores["swimming"]["not_measured"].is_string(), "{}", scores["swimming"]);
+    }
+}
+
+#[test]
+fn bad_frames_are_named() {
+    let handed = Handed::new();
+    let folder = handed.folder();
+    let shadow = |number: usize| folder.join(format!("shadow.{number:04}.exr"));
+    let original: Vec<Vec<u8>> = (0..COUNT).map(|n| std::fs::read(shadow(n)).expect("read")).collect();
+    let broken = |number: usize, bytes: &[u8], code: i32, words: &[&str]| {
+        std::fs::write(shadow(number), bytes).expect("written");
+        let mut ran = handed.score(&format!("--cameras cameras.json {}", WAYS[1])).ended_with(code);
+        for word in words {
+            ran = ran.says(word);
+        }
+        std::fs::write(shadow(number), &original[number]).expect("written");
+    };
+    let written = |layers: &[Layer]| {
+        let file = folder.join("made.exr");
+        write_exr(&file, layers).expect("written");
+        std::fs::read(&file).expect("read")
+    };
+    let plane = |width, height, value: f32| ("shadow.V".to_string(), Image::filled(width, height, value));
+    broken(3, &original[3][..original[3].len() / 2], 4, &["shadow.0003.exr"]);
+    broken(2, &written(&[plane(80, 45, 0.5)]), 4, &["shadow.0002.exr: has 80x45 pixels", "160x90"]);
+    let mut holes = Image::filled(160, 90, 0.5);
+    holes.pixels_mut()[161] = f32::NAN;
+    holes.pixels_mut()[500] = f32::INFINITY;
+    broken(
+        2,
+        &written(&[("shadow.V".into(), holes)]),
+        4,
+        &["2 pixels are NaN or infinite, the first at (1, 1)"],
+    );
+    let odd = [
+        ("left.A".to_string(), Image::filled(160, 90, 0.5)),
+        ("right.A".into(), Image::filled(160, 90, 0.5)),
+    ];
+    broken(0, &written(&odd), 4, &["left.A, right.A", "--channel"]);
+    broken(2, &original[1], 4, &["frames 1 and 2 are the same picture", "px between them"]);
+    // A header that promises a gigapixel is refused before memory is asked for.
+    let mut huge = original[0].clone();
+    let at = huge.windows(10).position(|w| w == b"dataWindow").expect("a header")
+        + b"dataWindow\0box2i\0".len()
+        + 4;
+    huge[at + 8..at + 16].copy_from_slice(&[0xff, 0xff, 0, 0, 0xff, 0xff, 0, 0]);
+    broken(0, &huge, 4, &["shadow.0000.exr"]);
+    for number in [1, 3] {
+        std::fs::remove_file(shadow(number)).expect("removed");
+    }
+    let ran = handed.score(&format!("--cameras cameras.json {}", WAYS[1])).ended_with(4);
+    assert!(ran.stderr.contains("2 of 5 frames are missing: 1, 3"), "{}", ran.stderr);
+    handed.score("--cameras cameras.json --frames nothing.####.exr").ended_with(4).says("no file fits");
+    handed.score("--cameras nothing.json --frames shadow.####.exr").ended_with(4).says("nothing.json");
+}
