@@ -2,7 +2,7 @@
 
 use crate::args::{EvaluateArgs, Plant, check_size};
 use crate::error::CliError;
-use crate::scenes::find_scene;
+use crate::scenes::{family_of, find_lit_scene};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -40,6 +40,9 @@ struct SuiteScene {
     /// Paths through it; all of the scene's when empty.
     #[serde(default)]
     paths: Vec<String>,
+    /// Its lights by number, from 1, scored one at a time; the first when empty.
+    #[serde(default)]
+    lights: Vec<usize>,
     /// What is too small to matter here, by score.
     #[serde(default)]
     gate: BTreeMap<String, MarginCard>,
@@ -225,7 +228,9 @@ fn parse(text: &str, path: &Path) -> Result<SuiteFile, CliError> {
 fn jobs_of(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<Job>, CliError> {
     for wanted in &args.scenes {
         let names = || file.scene.iter().map(|s| s.name.to_str().unwrap_or_default());
-        if !names().any(|n| n == wanted) && !file.scene.iter().any(|s| s.name.exists()) {
+        if !names().any(|n| n == wanted || n == family_of(wanted))
+            && !file.scene.iter().any(|s| s.name.exists())
+        {
             return Err(no_such_scene(file, wanted));
         }
     }
@@ -233,30 +238,45 @@ fn jobs_of(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<Job>, CliError> 
     let quick_scene =
         |s: &&SuiteScene| !args.quick || !args.what.is_empty() || s.name == Path::new("colonnade");
     for entry in file.scene.iter().filter(quick_scene) {
-        let (scene, made_file) = find_scene(&entry.name)?;
-        if !args.scenes.is_empty() && !args.scenes.contains(&scene.name) {
-            continue;
-        }
-        let wanted = if args.view.paths.is_empty() { &entry.paths } else { &args.view.paths };
-        let all = || scene.paths.iter().map(|p| p.name.clone()).collect();
-        let mut paths: Vec<String> = Vec::new();
-        for path in if wanted.is_empty() { all() } else { wanted.clone() } {
-            scene.path(&path)?;
-            // Twice the same window would count as two independent ones.
-            if !paths.contains(&path) {
-                paths.push(path);
+        let chosen = if args.view.lights.is_empty() { &entry.lights } else { &args.view.lights };
+        let lights: Vec<Option<usize>> = match chosen.as_slice() {
+            [] => vec![None],
+            chosen => chosen.iter().copied().map(Some).collect(),
+        };
+        for light in lights {
+            let (scene, made_file) = find_lit_scene(&entry.name, light)?;
+            let family = family_of(&scene.name);
+            let is_wanted = |wanted: &String| *wanted == scene.name || *wanted == family;
+            if !args.scenes.is_empty() && !args.scenes.iter().any(is_wanted) {
+                continue;
             }
+            let paths =
+                paths_of(&scene, if args.view.paths.is_empty() { &entry.paths } else { &args.view.paths })?;
+            if jobs.iter().any(|j| j.scene.content_hash() == scene.content_hash() && j.paths == paths) {
+                continue;
+            }
+            jobs.push(Job { scene, paths, gate: entry.gate.clone(), made_file });
         }
-        if jobs.iter().any(|j| j.scene.content_hash() == scene.content_hash() && j.paths == paths) {
-            continue;
-        }
-        jobs.push(Job { scene, paths, gate: entry.gate.clone(), made_file });
     }
     match (jobs.is_empty(), args.scenes.first()) {
         (false, _) => Ok(jobs),
         (true, Some(wanted)) => Err(no_such_scene(file, wanted)),
         (true, None) => Err(CliError::Usage(format!("the suite \"{}\" names no scene", file.name))),
     }
+}
+
+/// The wanted paths of a scene, or all of them.
+fn paths_of(scene: &Scene, wanted: &[String]) -> Result<Vec<String>, CliError> {
+    let all = || scene.paths.iter().map(|p| p.name.clone()).collect();
+    let mut paths: Vec<String> = Vec::new();
+    for path in if wanted.is_empty() { all() } else { wanted.to_vec() } {
+        scene.path(&path)?;
+        // Twice the same window would count as two independent ones.
+        if !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    Ok(paths)
 }
 
 fn no_such_scene(file: &SuiteFile, wanted: &str) -> CliError {

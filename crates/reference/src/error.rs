@@ -23,6 +23,9 @@ pub enum ReferenceError {
     /// The GPU that truth was asked of.
     #[error("truth on the GPU: {0}")]
     Device(#[from] umbrage_device::DeviceError),
+    /// The kernels know no masks.
+    #[error("the scene has cut-out materials, which truth on the GPU does not read")]
+    MasksOnGpu,
     /// The cache folder or a file in it cannot be used.
     #[error("the cache of ground truth at {path} cannot be used: {source}")]
     Cache {

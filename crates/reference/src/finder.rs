@@ -14,14 +14,14 @@ pub enum Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
-    /// On the GPU if there is one here.
+    /// On the GPU if there is one here, and nothing is cut out: kernels know no masks.
     ///
     /// # Errors
     /// A scene that does not fit into the device, or what its driver refuses.
     pub fn new(tracer: &'a Tracer, gpu: Option<&'a TruthGpu>) -> Result<Self, ReferenceError> {
         Ok(match gpu {
-            Some(gpu) => Self::Gpu(Box::new(GpuTracer::new(tracer, gpu)?)),
-            None => Self::Cpu(tracer),
+            Some(gpu) if !tracer.has_masks() => Self::Gpu(Box::new(GpuTracer::new(tracer, gpu)?)),
+            _ => Self::Cpu(tracer),
         })
     }
 

@@ -42,6 +42,7 @@
 
 mod aim;
 mod cache;
+mod cutouts;
 mod error;
 mod finder;
 mod gpu;

@@ -95,9 +95,7 @@ impl Paths<'_> {
         let hit = self.tracer.surfaces.closest(line, skip)?;
         let normal = self.tracer.normal_towards(&hit, line.direction);
         let position = line.origin + line.direction * hit.distance;
-        let triangle = self.tracer.surfaces.triangle_of_slot[hit.slot as usize];
-        let material = self.tracer.material[triangle as usize];
-        let albedo = self.tracer.albedo[material as usize].as_dvec3();
+        let albedo = self.tracer.albedo(hit.slot, position);
         Some(Vertex { receiver: Receiver::hit(hit.slot, position, normal), albedo })
     }
 

@@ -35,11 +35,14 @@ pub(crate) enum Between {
 pub(crate) struct Scratch {
     open: Vec<u32>,
     silhouettes: Vec<Silhouette>,
+    /// Of cut-out triangles, with their slots.
+    cards: Vec<(Silhouette, u32)>,
 }
 
 /// Walks the tree with the shaft from the receiver to the light.
 pub(crate) fn gather(surfaces: &Surfaces, receiver: &Receiver, aim: &Aim, scratch: &mut Scratch) -> Between {
     scratch.silhouettes.clear();
+    scratch.cards.clear();
     scratch.open.clear();
     let shaft = Shaft::new(receiver, aim, surfaces.extent);
     let nodes = &surfaces.bvh.nodes;
@@ -61,23 +64,37 @@ pub(crate) fn gather(surfaces: &Surfaces, receiver: &Receiver, aim: &Aim, scratc
             }
             match forms::shade(receiver, aim, surfaces.corners_f64(slot)) {
                 Shade::None => {}
+                Shade::Whole if surfaces.is_cut(slot) => scratch.cards.push((Silhouette::default(), slot)),
+                Shade::Part(silhouette) if surfaces.is_cut(slot) => scratch.cards.push((silhouette, slot)),
                 Shade::Whole => return Between::Everything,
                 Shade::Part(silhouette) => scratch.silhouettes.push(silhouette),
             }
         }
-        if scratch.silhouettes.len() > MOST {
+        if scratch.silhouettes.len() + scratch.cards.len() > MOST {
             return Between::TooMany;
         }
     }
-    if scratch.silhouettes.is_empty() { Between::Nothing } else { Between::Some }
+    let nothing = scratch.silhouettes.is_empty() && scratch.cards.is_empty();
+    if nothing { Between::Nothing } else { Between::Some }
 }
 
 /// Raises `cover` to 0 or above where a silhouette hides the sample.
-pub(crate) fn cover(scratch: &Scratch, samples: &LightSamples, cover: &mut [f32]) {
+pub(crate) fn cover(
+    surfaces: &Surfaces,
+    sight: (&Receiver, &Aim),
+    (scratch, samples): (&Scratch, &LightSamples),
+    cover: &mut [f32],
+) {
     for (done, silhouette) in scratch.silhouettes.iter().enumerate() {
         silhouette.cover(samples, cover);
         if done % 8 == 7 && cover.iter().all(|&c| c >= 0.0) {
             return;
+        }
+    }
+    for (silhouette, slot) in &scratch.cards {
+        let cutouts = surfaces.cutouts.as_ref();
+        if let Some(pattern) = cutouts.and_then(|c| c.pattern(*slot, surfaces.corners_f64(*slot), sight)) {
+            silhouette.cover_where(samples, cover, |place| pattern.is_there(place));
         }
     }
 }

@@ -4,6 +4,7 @@
 //! occluder nearer than 1e-4. Boxes are tested by obvhs in f32, triangles here in f64.
 
 use crate::ReferenceError;
+use crate::cutouts::Cutouts;
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::{BvhBuildParams, bvh2::Bvh2, bvh2::builder::build_bvh2_from_tris, ray::Ray, triangle::Triangle};
 use umbrage_scene::Scene;
@@ -21,6 +22,8 @@ pub(crate) struct Surfaces {
     pub(crate) triangle_of_slot: Vec<u32>,
     /// Triangle of the scene to slot.
     slot_of_triangle: Vec<u32>,
+    /// Those that are not there everywhere; `None` where all are.
+    pub(crate) cutouts: Option<Cutouts>,
     /// Largest absolute coordinate, metres.
     pub(crate) extent: f32,
 }
@@ -59,7 +62,8 @@ impl Surfaces {
         let corners = triangle_of_slot.iter().map(|&t| geometry.corners(t as usize)).collect();
         let (low, high) = geometry.bounds();
         let extent = low.abs().max(high.abs()).max_element();
-        Ok(Self { bvh, corners, triangle_of_slot, slot_of_triangle, extent })
+        let cutouts = Cutouts::new(scene, &triangle_of_slot);
+        Ok(Self { bvh, corners, triangle_of_slot, slot_of_triangle, cutouts, extent })
     }
 
     /// Where a triangle of the scene stands; `None` for `u32::MAX` and other strangers.
@@ -72,16 +76,27 @@ impl Surfaces {
         self.corners[slot as usize].map(Vec3::as_dvec3)
     }
 
+    /// Whether a triangle is cut out.
+    pub(crate) fn is_cut(&self, slot: u32) -> bool {
+        self.cutouts.as_ref().is_some_and(|cutouts| cutouts.has(slot))
+    }
+
+    /// Whether a triangle is there, so far along its sides.
+    fn is_there(&self, slot: u32, along: [f64; 2]) -> bool {
+        self.cutouts.as_ref().is_none_or(|cutouts| cutouts.is_there(slot, along))
+    }
+
     /// The nearest surface on a line but for the skipped ones.
     pub(crate) fn closest(&self, line: &Line, skip: impl Fn(u32, &[Vec3; 3]) -> bool) -> Option<Hit> {
         let mut best: Option<Hit> = None;
         let mut end = line.range[1];
         self.bvh.ray_traverse(line.boxes(), &mut obvhs::ray::RayHit::none(), |_, slot| {
             match intersect(line, self.corners_f64(slot as u32)) {
-                Some(distance)
+                Some((distance, along))
                     if distance >= line.range[0]
                         && distance < end
-                        && !skip(slot as u32, &self.corners[slot]) =>
+                        && !skip(slot as u32, &self.corners[slot])
+                        && self.is_there(slot as u32, along) =>
                 {
                     end = distance;
                     best = Some(Hit { slot: slot as u32, distance });
@@ -95,15 +110,14 @@ impl Surfaces {
 
     /// Whether one triangle crosses a line.
     pub(crate) fn crosses(&self, line: &Line, slot: u32) -> bool {
-        intersect(line, self.corners_f64(slot)).is_some_and(|t| t > line.range[0] && t < line.range[1])
+        intersect(line, self.corners_f64(slot))
+            .is_some_and(|(t, along)| t > line.range[0] && t < line.range[1] && self.is_there(slot, along))
     }
 
     /// Whether any surface but the skipped ones crosses a line.
     pub(crate) fn blocked(&self, line: &Line, skip: impl Fn(u32, &[Vec3; 3]) -> bool) -> bool {
         !self.bvh.ray_traverse_miss(line.boxes(), |_, slot| {
-            let crosses = |t: f64| t > line.range[0] && t < line.range[1];
-            let hit = intersect(line, self.corners_f64(slot as u32)).is_some_and(crosses)
-                && !skip(slot as u32, &self.corners[slot]);
+            let hit = self.crosses(line, slot as u32) && !skip(slot as u32, &self.corners[slot]);
             if hit { 0.0 } else { f32::INFINITY }
         })
     }
@@ -117,8 +131,9 @@ impl Line {
     }
 }
 
-/// Distance along a line to a triangle, either side (Möller and Trumbore 1997, in f64).
-fn intersect(line: &Line, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+/// Distance along a line to a triangle, either side, and how far along the triangle's first and second
+/// sides (Möller and Trumbore 1997, in f64).
+fn intersect(line: &Line, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f64; 2])> {
     let (ab, ac) = (b - a, c - a);
     let p = line.direction.cross(ac);
     let determinant = ab.dot(p);
@@ -129,7 +144,7 @@ fn intersect(line: &Line, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let q = s.cross(ab);
     let u = s.dot(p) / determinant;
     let v = line.direction.dot(q) / determinant;
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| ac.dot(q) / determinant)
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| (ac.dot(q) / determinant, [u, v]))
 }
 
 fn build(triangles: &[Triangle]) -> Bvh2 {

@@ -1,8 +1,8 @@
 //! A scene made ready for tracing.
 
 use crate::{ReferenceError, surfaces::Surfaces};
-use glam::Vec3;
-use umbrage_scene::Scene;
+use glam::{DVec3, Vec2};
+use umbrage_scene::{Material, Scene, uv_at};
 
 /// The surfaces of a scene in a tree, with what the path tracer needs of their materials. Holds
 /// copies: the scene may be dropped.
@@ -10,8 +10,9 @@ pub struct Tracer {
     pub(crate) surfaces: Surfaces,
     /// Per triangle of the scene.
     pub(crate) material: Vec<u32>,
-    /// Per material.
-    pub(crate) albedo: Vec<Vec3>,
+    materials: Vec<Material>,
+    /// Per triangle of the scene, or none.
+    uvs: Vec<[Vec2; 3]>,
     /// `Scene::content_hash`.
     pub(crate) scene_hash: [u8; 32],
 }
@@ -27,8 +28,25 @@ impl Tracer {
         Ok(Self {
             surfaces,
             material: scene.geometry.material.clone(),
-            albedo: scene.materials.iter().map(|m| m.albedo).collect(),
+            materials: scene.materials.clone(),
+            uvs: scene.geometry.uvs.clone(),
             scene_hash: scene.content_hash(),
         })
+    }
+
+    /// Whether any surface is cut out.
+    pub fn has_masks(&self) -> bool {
+        self.surfaces.cutouts.is_some()
+    }
+
+    /// Linear reflectance at a place on a triangle.
+    pub(crate) fn albedo(&self, slot: u32, place: DVec3) -> DVec3 {
+        let triangle = self.surfaces.triangle_of_slot[slot as usize] as usize;
+        let material = &self.materials[self.material[triangle] as usize];
+        let albedo = match self.uvs.get(triangle) {
+            Some(uvs) => material.albedo_at(uv_at((&self.surfaces.corners_f64(slot), uvs), place)),
+            None => material.albedo,
+        };
+        albedo.as_dvec3()
     }
 }

@@ -244,7 +244,10 @@ impl<'a> Task<'a> {
             shafts::Between::TooMany => {
                 rays::cover(surfaces, (receiver, aim), &scratch.samples, &mut scratch.cover);
             }
-            _ => shafts::cover(&scratch.shafts, &scratch.samples, &mut scratch.cover),
+            _ => {
+                let with = (&scratch.shafts, &scratch.samples);
+                shafts::cover(surfaces, (receiver, aim), with, &mut scratch.cover);
+            }
         }
         Sight::Sampled
     }

@@ -28,7 +28,11 @@ pub(crate) fn assemble(
     model.check(path)?;
     let bounds = model.bounds().ok_or(SceneError::NoTriangles { path: path.to_owned() })?;
     let origin = origin_for(bounds);
-    let (geometry, dropped) = geometry_from(&model.objects, origin);
+    let textured = model.materials.iter().any(|m| m.mask.is_some() || m.texture.is_some());
+    let (mut geometry, dropped) = geometry_from(&model.objects, origin);
+    if !textured {
+        geometry.uvs = Vec::new();
+    }
     if geometry.triangles.is_empty() {
         return Err(SceneError::NoTriangles { path: path.to_owned() });
     }
@@ -42,7 +46,15 @@ pub(crate) fn assemble(
         ));
     }
     let lights = lights_from(&file.lights, origin, path)?;
-    let surroundings = Surroundings { file: path, model: &model, origin, bounds, light: lights[0] };
+    let scored = file.scored_light;
+    let Some(&light) = lights.get(scored) else {
+        let count = lights.len();
+        return Err(SceneError::value(
+            path,
+            format!("there is no light {}: lights 1 to {count}", scored + 1),
+        ));
+    };
+    let surroundings = Surroundings { file: path, model: &model, origin, bounds, light };
     let paths = paths_from(file, &surroundings)?;
     let shadow_region = region_from(file.shadow_region, bounds, origin, path)?;
     let mut scene = Scene {
@@ -56,8 +68,9 @@ pub(crate) fn assemble(
         origin,
         notes,
     };
-    let more = notes::about(&scene);
+    let more = notes::about(&scene, scored);
     scene.notes.extend(more);
+    scene.lights[..=scored].rotate_right(1);
     Ok(scene)
 }
 
@@ -74,7 +87,7 @@ fn geometry_from(objects: &[Object], origin: DVec3) -> (Geometry, usize) {
     let mut dropped = 0;
     for object in objects {
         let mut placed = vec![None; object.positions.len()];
-        for corners in &object.triangles {
+        for (triangle, corners) in object.triangles.iter().enumerate() {
             let at = corners.map(|v| (object.positions[v as usize] - origin).as_vec3());
             if is_degenerate(at) {
                 dropped += 1;
@@ -87,6 +100,7 @@ fn geometry_from(objects: &[Object], origin: DVec3) -> (Geometry, usize) {
                 })
             }));
             geometry.material.push(object.material);
+            geometry.uvs.push(object.uvs.get(triangle).copied().unwrap_or_default());
         }
     }
     (geometry, dropped)

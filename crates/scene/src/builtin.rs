@@ -29,9 +29,14 @@ impl Scene {
     /// # Errors
     /// `UnknownName` with the nearest name when there is none.
     pub fn builtin(name: &str) -> Result<Self, SceneError> {
-        let found = BUILTIN.iter().find(|(known, _)| *known == name);
-        let (_, source) = found.ok_or_else(|| SceneError::unknown("scene", name, builtin_names()))?;
-        let path = PathBuf::from(format!("scenes/{name}/scene.toml"));
+        let (source, path) = source(name)?;
         Self::from_file(name, &SceneFile::parse(source, &path)?, &path)
     }
+}
+
+/// The text of a standard scene, and where it was.
+pub(crate) fn source(name: &str) -> Result<(&'static str, PathBuf), SceneError> {
+    let found = BUILTIN.iter().find(|(known, _)| *known == name);
+    let (_, source) = found.ok_or_else(|| SceneError::unknown("scene", name, builtin_names()))?;
+    Ok((source, PathBuf::from(format!("scenes/{name}/scene.toml"))))
 }

@@ -43,6 +43,7 @@ pub(crate) fn file_for(model: &Model, path: &Path) -> Result<SceneFile, SceneErr
             azimuth_degrees: Some(30.0),
             direction_to_light: None,
         }],
+        scored_light: 0,
         paths,
     })
 }

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 impl Scene {
     /// Blake3 over the bits of positions, triangles, their materials, the materials' reflectances
-    /// and the lights. Names, titles, notes and paths do not enter: a cached frame is keyed by its
+    /// and masks (with the places of masked triangles in them), and the lights. Names, titles, notes and paths do not enter: a cached frame is keyed by its
     /// camera, and by its light where a path moves it. The bits of `-0.0` and `0.0` differ.
     pub fn content_hash(&self) -> [u8; 32] {
         let mut hasher = blake3::Hasher::new();
@@ -24,7 +24,32 @@ impl Scene {
         self.lights.iter().for_each(|light| {
             hasher.update(&light.content_hash());
         });
+        self.hash_masks(&mut hasher);
         *hasher.finalize().as_bytes()
+    }
+
+    /// Nothing where nothing is cut out: hashes of whole scenes stay what they were.
+    fn hash_masks(&self, hasher: &mut blake3::Hasher) {
+        if !self.has_masks() {
+            return;
+        }
+        for material in &self.materials {
+            let Some(mask) = &material.mask else {
+                hasher.update(&[0]);
+                continue;
+            };
+            hasher.update(&[1, mask.wrap()[0] as u8, mask.wrap()[1] as u8]);
+            for word in mask.size().iter().chain(mask.bits()) {
+                hasher.update(&word.to_le_bytes());
+            }
+        }
+        for (uvs, &material) in self.geometry.uvs.iter().zip(&self.geometry.material) {
+            if self.materials[material as usize].mask.is_some() {
+                for component in uvs.iter().flat_map(|uv| uv.to_array()) {
+                    hasher.update(&component.to_le_bytes());
+                }
+            }
+        }
     }
 }
 

@@ -8,6 +8,8 @@ mod assemble;
 mod builtin;
 mod camera;
 mod cameras;
+#[cfg(test)]
+mod cutout_tests;
 mod error;
 mod fitted;
 mod generators;
@@ -20,11 +22,13 @@ mod model;
 mod notes;
 mod obj;
 mod paths;
+mod picture;
 mod rays;
 mod spec;
 mod suggest;
 #[cfg(test)]
 mod tests;
+mod texture;
 
 pub use builtin::builtin_names;
 pub use camera::{Camera, CameraPath, PathFrame};
@@ -40,8 +44,9 @@ pub use spec::{
     ShadowRegionSpec, UpAxis,
 };
 pub use suggest::suggest;
+pub use texture::{AlphaMask, Texture, Wrap};
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// Everything a picture is made of. Coordinates are metres after recentring by `origin`.
 #[derive(Clone, Debug)]
@@ -54,7 +59,7 @@ pub struct Scene {
     pub geometry: Geometry,
     /// Diffuse materials; never empty.
     pub materials: Vec<Material>,
-    /// Area lights; never empty. The first is the one that is scored unless told otherwise.
+    /// Area lights; never empty. The first is the one that is scored.
     pub lights: Vec<AreaLight>,
     /// Named camera paths; never empty.
     pub paths: Vec<CameraPath>,
@@ -77,6 +82,9 @@ pub struct Geometry {
     pub triangles: Vec<[u32; 3]>,
     /// Per triangle, an index into the scene's materials.
     pub material: Vec<u32>,
+    /// Per triangle, where its corners stand in its material's pictures (v downwards); empty where no
+    /// material has any.
+    pub uvs: Vec<[Vec2; 3]>,
 }
 
 /// A diffuse surface.
@@ -86,6 +94,10 @@ pub struct Material {
     pub name: String,
     /// Linear reflectance per colour, 0 to 1.
     pub albedo: Vec3,
+    /// Where it is cut out.
+    pub mask: Option<AlphaMask>,
+    /// Multiplies the reflectance in shaded pictures; shadows do not depend on it.
+    pub texture: Option<Texture>,
 }
 
 /// The part of the world that a sun's orthographic shadow map covers, and the blocker distance
@@ -111,12 +123,39 @@ impl Scene {
         let found = self.paths.iter().find(|path| path.name == name);
         found.ok_or_else(|| SceneError::unknown("path", name, names))
     }
+
+    /// Whether any triangle is cut out.
+    pub fn has_masks(&self) -> bool {
+        self.geometry.material.iter().any(|&m| self.materials[m as usize].mask.is_some())
+    }
+
+    /// Linear reflectance of a triangle at a place on it.
+    pub fn albedo_at(&self, triangle: usize, place: Vec3) -> Vec3 {
+        let material = &self.materials[self.geometry.material[triangle] as usize];
+        match self.geometry.uvs.get(triangle) {
+            Some(uvs) if material.texture.is_some() => {
+                let corners = self.geometry.corners(triangle).map(|corner| corner.as_dvec3());
+                material.albedo_at(uv_at((&corners, uvs), place.as_dvec3()))
+            }
+            _ => material.albedo,
+        }
+    }
 }
 
 impl Material {
+    /// Of one colour, whole.
+    pub fn plain(name: impl Into<String>, albedo: Vec3) -> Self {
+        Self { name: name.into(), albedo, mask: None, texture: None }
+    }
+
     /// What has no colour of its own: grey 0.5.
     pub(crate) fn grey() -> Self {
-        Self { name: "grey".to_owned(), albedo: Vec3::splat(0.5) }
+        Self::plain("grey", Vec3::splat(0.5))
+    }
+
+    /// Linear reflectance at a place of the material's pictures.
+    pub fn albedo_at(&self, uv: DVec2) -> Vec3 {
+        self.texture.as_ref().map_or(self.albedo, |texture| self.albedo * texture.colour(uv))
     }
 }
 
@@ -131,4 +170,16 @@ impl Geometry {
         let first = self.positions.first().copied().unwrap_or(Vec3::ZERO);
         self.positions.iter().fold((first, first), |(lo, hi), &p| (lo.min(p), hi.max(p)))
     }
+}
+
+/// Where a place on a triangle stands in its pictures: its corners' places, weighed by the parts of
+/// the area that are opposite (0 for a triangle without an area).
+pub fn uv_at((corners, uvs): (&[DVec3; 3], &[Vec2; 3]), place: DVec3) -> DVec2 {
+    let [a, b, c] = *corners;
+    let normal = (b - a).cross(c - a);
+    let per_area = 1.0 / normal.length_squared().max(f64::MIN_POSITIVE);
+    let u = (place - a).cross(c - a).dot(normal) * per_area;
+    let v = (b - a).cross(place - a).dot(normal) * per_area;
+    let [at_a, at_b, at_c] = uvs.map(Vec2::as_dvec2);
+    at_a + u * (at_b - at_a) + v * (at_c - at_a)
 }

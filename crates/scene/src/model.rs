@@ -3,7 +3,7 @@
 
 use crate::gltf_file::CameraTrack;
 use crate::{Material, SceneError};
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec2};
 use std::path::Path;
 
 /// A model as it was read or generated.
@@ -21,6 +21,8 @@ pub(crate) struct Object {
     pub(crate) name: String,
     pub(crate) positions: Vec<DVec3>,
     pub(crate) triangles: Vec<[u32; 3]>,
+    /// Per triangle, where its corners stand in the material's pictures; empty without any.
+    pub(crate) uvs: Vec<[Vec2; 3]>,
     pub(crate) material: u32,
 }
 

@@ -3,12 +3,13 @@
 use crate::rays::Soup;
 use crate::{AreaLight, Scene};
 
-/// Sentences for people.
-pub(crate) fn about(scene: &Scene) -> Vec<String> {
+/// Sentences for people, about a scene whose lights stand in the file's order.
+pub(crate) fn about(scene: &Scene, scored_light: usize) -> Vec<String> {
     let soup = Soup::from(&scene.geometry);
     let mut notes = Vec::new();
     if scene.lights.len() > 1 {
-        notes.push(format!("{} lights: the first is scored", scene.lights.len()));
+        let (count, scored) = (scene.lights.len(), scored_light + 1);
+        notes.push(format!("{count} lights: number {scored} is scored; --light chooses"));
     }
     for (i, light) in scene.lights.iter().enumerate() {
         notes.extend(about_light(light, scene, &soup).map(|what| format!("light {} {what}", i + 1)));

@@ -184,9 +184,9 @@ fn lights_beyond_the_first_are_noted() {
     assert_eq!(build(&file).notes, [""; 0]);
     let sphere = |x: f64| LightSpec::Sphere { centre: [x, 9.0, 2.0], radius_world: 0.1 };
     file.lights.push(sphere(1.0));
-    assert_eq!(build(&file).notes, ["2 lights: the first is scored"]);
+    assert_eq!(build(&file).notes, ["2 lights: number 1 is scored; --light chooses"]);
     file.lights.push(sphere(2.0));
-    assert_eq!(build(&file).notes, ["3 lights: the first is scored"]);
+    assert_eq!(build(&file).notes, ["3 lights: number 1 is scored; --light chooses"]);
 }
 
 #[test]

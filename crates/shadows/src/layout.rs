@@ -60,6 +60,16 @@ pub(crate) struct Vertex {
     pub(crate) normal: [f32; 3],
 }
 
+/// Vertex of a cut-out triangle: also its place in a mask, and where that begins.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct CutVertex {
+    pub(crate) position: [f32; 3],
+    pub(crate) normal: [f32; 3],
+    pub(crate) uv: [f32; 2],
+    pub(crate) mask: u32,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -17,6 +17,7 @@ mod shader;
 mod stages;
 mod technique;
 mod techniques;
+mod triangles;
 
 pub use calibration::{Bias, ConstantBias, ReceiverPlane};
 pub use error::ShadowError;

@@ -72,6 +72,8 @@ pub enum Binding {
     SourceC(TextureId),
     /// 11: uniform `past`, the globals of so many frames ago, beside the present ones.
     Past(usize),
+    /// 12: masks of cut-out surfaces.
+    Cutouts,
 }
 
 impl Binding {
@@ -90,6 +92,7 @@ impl Binding {
             Self::SourceB(_) => 9,
             Self::SourceC(_) => 10,
             Self::Past(_) => 11,
+            Self::Cutouts => 12,
         }
     }
 
@@ -107,6 +110,7 @@ impl Binding {
             Self::Globals
             | Self::EarlierGlobals(_)
             | Self::Past(_)
+            | Self::Cutouts
             | Self::Anchors
             | Self::Values
             | Self::Nearest => None,
@@ -143,6 +147,9 @@ pub struct RasterPass {
     pub label: &'static str,
     /// WGSL with entry points `vertex` and `fragment`.
     pub shader: Vec<Fragment>,
+    /// The same for triangles that are cut out, drawn after the others; it reads `Cutouts` besides. Empty
+    /// where all are whole.
+    pub cut: Vec<Fragment>,
     /// Values of `override` constants; those that the shader does not declare are left out.
     pub constants: Vec<(&'static str, f64)>,
     /// What it reads.

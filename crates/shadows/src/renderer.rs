@@ -1,6 +1,7 @@
 //! A scene on a graphics adapter: masks for frames, values for anchors, intermediate targets.
 
-use crate::layout::{Anchor, Vertex};
+use crate::layout::Anchor;
+use crate::triangles::Triangles;
 use crate::{Bias, Gpu, Info, Inputs, Kernels, LightMap, Recording, Seeding, ShadowError, Timing, VariantId};
 use crate::{Projection, Receivers, VARIANTS, stages};
 use glam::Vec3;
@@ -13,6 +14,7 @@ pub struct Renderer<'a> {
     scene: &'a Scene,
     map_texels: u32,
     geometry_key: u64,
+    has_cutouts: bool,
     light_maps: Vec<(AreaLight, Projection, LightMap)>,
     bias: Option<Bias>,
     past: Vec<View>,
@@ -61,13 +63,14 @@ impl<'a> Renderer<'a> {
                 limit: limit.into(),
             });
         }
-        let vertices = flat_vertices(scene);
-        let geometry_key = gpu.upload_scene(&vertices)?;
+        let triangles = Triangles::of(scene);
+        let geometry_key = gpu.upload_scene(&triangles)?;
         Ok(Self {
             gpu,
             scene,
             map_texels,
             geometry_key,
+            has_cutouts: !triangles.cut.is_empty(),
             light_maps: Vec::new(),
             bias: None,
             past: Vec::new(),
@@ -211,6 +214,7 @@ impl<'a> Renderer<'a> {
             receivers: Receivers::Frame,
             seeding: Seeding::Frozen,
             geometry_key: self.geometry_key,
+            has_cutouts: self.has_cutouts,
             past: &[],
             age: 0,
         };
@@ -239,6 +243,7 @@ impl<'a> Renderer<'a> {
             receivers: job.receivers,
             seeding: job.seeding,
             geometry_key: self.geometry_key,
+            has_cutouts: self.has_cutouts,
             past: &self.past,
             age: 0,
         };
@@ -316,6 +321,7 @@ impl VariantId {
             receivers: Receivers::Frame,
             seeding: Seeding::Fresh,
             geometry_key: 0,
+            has_cutouts: scene.has_masks(),
             past: &[],
             age: 0,
         };
@@ -332,17 +338,6 @@ impl VariantId {
     pub fn kernels(&self) -> Kernels {
         self.variant.technique.kernels(self.calibration)
     }
-}
-
-/// Three vertices a triangle, with its geometric normal.
-fn flat_vertices(scene: &Scene) -> Vec<Vertex> {
-    let geometry = &scene.geometry;
-    let corners = (0..geometry.triangles.len()).map(|t| geometry.corners(t));
-    let vertices = corners.flat_map(|[a, b, c]| {
-        let normal = (b - a).cross(c - a).normalize_or(Vec3::Y).to_array();
-        [a, b, c].map(|p| Vertex { position: p.to_array(), normal })
-    });
-    vertices.collect()
 }
 
 /// Linear depth and normals as the frame crate has them.

@@ -1,5 +1,6 @@
 //! What a technique is, and how one is chosen and told what to shade.
 
+use crate::shader::{self, Fragment};
 use crate::{Bias, Binding, Globals, Kernels, LightMap, Recording, VARIANTS};
 use umbrage_frame::View;
 use umbrage_scene::AreaLight;
@@ -179,6 +180,8 @@ pub struct Inputs<'a> {
     pub seeding: Seeding,
     /// Hash of the geometry, for maps that are kept.
     pub geometry_key: u64,
+    /// Whether any triangle is cut out: raster passes then draw those with a shader of their own.
+    pub has_cutouts: bool,
     /// The views of the frames before, newest first; as many as the technique's history.
     pub past: &'a [View],
     /// How many frames ago this is: 0 is the present.
@@ -189,6 +192,14 @@ impl<'a> Inputs<'a> {
     /// The inputs of so many frames ago. A camera that has no past stood still.
     pub(crate) fn earlier(&self, age: usize) -> Inputs<'a> {
         Inputs { view: self.past.get(age - 1).or(self.past.last()).unwrap_or(self.view), age, ..*self }
+    }
+
+    /// The shader of cut-out triangles, where there are any.
+    pub(crate) fn cut(&self, own: Fragment, uses: &[Fragment]) -> Vec<Fragment> {
+        if !self.has_cutouts {
+            return Vec::new();
+        }
+        [&[own, shader::GLOBALS, shader::CUTOUT], uses].concat()
     }
 
     /// The globals of the frame that these inputs are about.

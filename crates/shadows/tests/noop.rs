@@ -9,8 +9,8 @@ use support::still_life;
 use umbrage_frame::Anchors;
 use umbrage_scene::AreaLight;
 use umbrage_shadows::{
-    AdapterChoice, Fragment, Gpu, Inputs, LightMap, Pass, Receivers, Recording, Renderer, Seeding, VariantId,
-    fragments,
+    AdapterChoice, Fragment, Gpu, Inputs, LightMap, Pass, RasterPass, Receivers, Recording, Renderer,
+    Seeding, VariantId, fragments,
 };
 
 const SEEDINGS: [Seeding; 3] = [Seeding::Fresh, Seeding::Frozen, Seeding::Animated];
@@ -31,6 +31,7 @@ fn recordings() -> Vec<Recording> {
             receivers,
             seeding,
             geometry_key: 0,
+            has_cutouts: true,
             past: &past,
             age: 0,
         };
@@ -61,6 +62,17 @@ fn shader_of(pass: &Pass) -> &[Fragment] {
     }
 }
 
+/// A pass that draws cut-out triangles too becomes two, one for each of its shaders.
+fn each_shader(pass: Pass) -> Vec<Pass> {
+    match pass {
+        Pass::Raster(pass) => {
+            let cut = RasterPass { shader: pass.cut.clone(), ..pass.clone() };
+            vec![Pass::Raster(pass), Pass::Raster(cut)]
+        }
+        compute @ Pass::Compute(_) => vec![compute],
+    }
+}
+
 /// A pass's WGSL, and its constants as naga takes them: those that it declares.
 fn wgsl(pass: &Pass) -> (String, Vec<(String, f64)>) {
     let source = shader_of(pass).iter().map(|f| f.source.as_ref()).collect::<Vec<_>>().join("\n");
@@ -76,7 +88,7 @@ fn wgsl(pass: &Pass) -> (String, Vec<(String, f64)>) {
 /// Every pass with WGSL, entry points or constants of its own, once.
 fn distinct_passes() -> Vec<Pass> {
     let mut seen = HashSet::new();
-    let all = recordings().into_iter().flat_map(|recording| recording.passes);
+    let all = recordings().into_iter().flat_map(|recording| recording.passes).flat_map(each_shader);
     let key = |pass: &Pass| {
         let (source, constants) = wgsl(pass);
         (source, pass.label(), constants.iter().map(|c| c.1.to_bits()).collect::<Vec<_>>())
@@ -178,7 +190,7 @@ fn every_shared_fragment_is_used() {
 
 #[test]
 fn every_pass_builds_and_runs_on_the_noop_backend() {
-    let scene = still_life::scene();
+    let scene = still_life::leafy(still_life::leaf(umbrage_scene::Wrap::Repeat));
     let view = still_life::view_of(&still_life::camera());
     let choice = AdapterChoice { backend: Some("noop".into()), name: None };
     let mut gpu = Gpu::new(&choice).expect("noop needs no driver");

@@ -2,6 +2,7 @@
 //! scores, and what is known of truth must come out of truth.
 
 mod agreement;
+mod leaves;
 mod lights;
 mod runs;
 mod swimming;

@@ -8,7 +8,7 @@ mod score;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use gate::{AcceptArgs, CompareArgs, FailOn, GateArgs, Plant};
 pub(crate) use parse::check_size;
-use parse::{parse_bias, parse_size, parse_tolerance};
+use parse::{parse_bias, parse_light, parse_size, parse_tolerance};
 pub(crate) use reference::{MethodArg, ReferenceArgs};
 pub(crate) use score::{ScoreArgs, TransferArg};
 use std::path::PathBuf;
@@ -56,6 +56,10 @@ pub(crate) struct ViewArgs {
     /// Camera path (several by repeating); all of the suite's otherwise.
     #[arg(long = "path", value_name = "NAME")]
     pub(crate) paths: Vec<String>,
+    /// Light by its number in the scene, from 1 (several by repeating, scored one at a time); the first
+    /// otherwise.
+    #[arg(long = "light", value_name = "N", value_parser = parse_light)]
+    pub(crate) lights: Vec<usize>,
     /// Side of the shadow map in texels.
     #[arg(long, value_name = "TEXELS", default_value_t = 2048)]
     pub(crate) map: u32,

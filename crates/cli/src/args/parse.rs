@@ -8,6 +8,11 @@ const MAX_SIDE: u32 = 16_384;
 /// 7680 x 4320: a window of 16 frames and 4 seeds takes 256 bytes a pixel.
 const MAX_PIXELS: u64 = 7680 * 4320;
 
+/// Lights are counted from 1.
+pub(super) fn parse_light(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|&light| light > 0).ok_or_else(|| "lights are numbered from 1".into())
+}
+
 pub(super) fn parse_bias(text: &str) -> Result<Bias, String> {
     let expected = "expected metres,texels,slope as in 0.001,0.5,5 (the slope may be `off`)";
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();

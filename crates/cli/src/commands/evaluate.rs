@@ -1,6 +1,6 @@
 //! `umbrage evaluate`: the main job.
 
-use super::{gate, open_gpu, open_truth_gpu};
+use super::{check_masks, gate, open_gpu, open_truth_gpu};
 use crate::args::{EvaluateArgs, ReportKind};
 use crate::clock;
 use crate::error::CliError;
@@ -15,6 +15,7 @@ use umbrage_shadows::Gpu;
 
 pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     let plan = Plan::new(args)?;
+    check_masks(args.truth.reference_on, plan.jobs.iter().map(|job| &job.scene))?;
     args.save_baseline.as_deref().map_or(Ok(()), gate::check_name)?;
     let now = clock::now();
     let out = args.out.clone().unwrap_or_else(|| run_folder(&plan.name, &now.folder));

@@ -13,6 +13,7 @@ use crate::args::{Arguments, Command, GpuArgs, ReferenceOn};
 use crate::error::CliError;
 use std::process::ExitCode;
 use umbrage_reference::{DeviceError, ReferenceError, TruthGpu};
+use umbrage_scene::Scene;
 use umbrage_shadows::{AdapterChoice, Gpu};
 
 /// Runs the command that was asked for.
@@ -59,6 +60,18 @@ fn open_truth_gpu(on: ReferenceOn, wanted: &GpuArgs) -> Result<Option<TruthGpu>,
         eprintln!("truth on: {} ({note})", adapter.name);
     }
     Ok(gpu)
+}
+
+/// The GPU's kernels know no masks: `auto` takes the CPU for such a scene, `gpu` is refused.
+fn check_masks<'a>(on: ReferenceOn, scenes: impl IntoIterator<Item = &'a Scene>) -> Result<(), CliError> {
+    let cut_out = scenes.into_iter().find(|scene| on == ReferenceOn::Gpu && scene.has_masks());
+    cut_out.map_or(Ok(()), |scene| {
+        Err(CliError::Usage(format!(
+            "--reference-on gpu: {} has cut-out materials, which the GPU's truth does not know\n  \
+             help: take --reference-on auto or cpu",
+            scene.name
+        )))
+    })
 }
 
 fn choice(wanted: &GpuArgs) -> AdapterChoice {

@@ -1,11 +1,11 @@
 //! `umbrage reference`: ground truth of one frame to EXR.
 
-use super::open_truth_gpu;
+use super::{check_masks, open_truth_gpu};
 use crate::args::{MethodArg, ReferenceArgs, ReferenceOn};
 use crate::error::CliError;
 use crate::output::print;
 use crate::run::truths::reached_note;
-use crate::scenes::find_scene;
+use crate::scenes::{find_lit_scene, only_light};
 use crate::views::{frame_of, path_of, view_of};
 use std::path::{Path, PathBuf};
 use umbrage_frame::{Image, Layer, write_exr};
@@ -17,7 +17,8 @@ use umbrage_scene::PathFrame;
 pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     check_samples(args)?;
     let on = wanted_place(args)?;
-    let (scene, _) = find_scene(&args.scene)?;
+    let (scene, _) = find_lit_scene(&args.scene, only_light(&args.view.lights)?)?;
+    check_masks(on, [&scene])?;
     let path = path_of(&scene, &args.view.paths)?;
     let numbers = args.frame..args.frame.saturating_add(args.frames);
     // Names that are wrong are wrong before the first hour of work.

@@ -4,14 +4,14 @@ use super::open_gpu;
 use crate::args::RenderArgs;
 use crate::error::CliError;
 use crate::output::print;
-use crate::scenes::find_scene;
+use crate::scenes::{find_lit_scene, only_light};
 use crate::suite::variants_of;
 use crate::views::{frame_of, past_of, path_of, view_of};
 use umbrage_frame::{Image, Layer, write_exr};
 use umbrage_shadows::{Calibration, Dump, LightMap, ReceiverPlane, Renderer, Seeding};
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let (scene, _) = find_scene(&args.scene)?;
+    let (scene, _) = find_lit_scene(&args.scene, only_light(&args.view.lights)?)?;
     let variants = variants_of(&args.variants)?;
     let path = path_of(&scene, &args.view.paths)?;
     let size = args.view.size.unwrap_or((1280, 720));

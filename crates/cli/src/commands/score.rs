@@ -1,7 +1,7 @@
 //! `umbrage score`: frames of another engine.
 
 use super::evaluate::{command_line, layout, run_folder};
-use super::{gate, open_truth_gpu};
+use super::{check_masks, gate, open_truth_gpu};
 use crate::args::ScoreArgs;
 use crate::clock;
 use crate::error::CliError;
@@ -28,6 +28,7 @@ pub(crate) fn run(args: &ScoreArgs) -> Result<(), CliError> {
         }
         (None, Some(scene)) => {
             let plan = plan(args, scene, frames)?;
+            check_masks(args.truth.reference_on, [&plan.scene])?;
             let out = named(&plan.name);
             let truth_gpu = open_truth_gpu(args.truth.reference_on, &args.gpu)?;
             let settings = ScoreSettings { truth_gpu, out: out.clone(), command: command_line(), now };

@@ -260,12 +260,12 @@ fn shading(scene: &Scene, hits: &PrimaryHits, light: &AreaLight) -> Image<Vec3> 
     let gbuffer = &hits.gbuffer;
     let (width, height) = (gbuffer.view.width, gbuffer.view.height);
     let surface = |pixel: usize| {
-        let Some(material) = scene.materials.get(hits.material.pixels()[pixel] as usize) else {
+        if !gbuffer.is_hit(pixel) {
             return Vec3::splat(0.3);
-        };
-        let normal = gbuffer.normal.pixels()[pixel];
-        let cosine = normal.dot(light.direction_from(gbuffer.position.pixels()[pixel])).max(0.0);
-        material.albedo * (0.3 + 0.7 * cosine)
+        }
+        let (position, normal) = (gbuffer.position.pixels()[pixel], gbuffer.normal.pixels()[pixel]);
+        let cosine = normal.dot(light.direction_from(position)).max(0.0);
+        scene.albedo_at(hits.triangle.pixels()[pixel] as usize, position) * (0.3 + 0.7 * cosine)
     };
     Image::from_pixels(width, height, (0..(width * height) as usize).map(surface).collect())
 }

@@ -110,10 +110,13 @@ impl<'a> GpuTracer<'a> {
     /// Uploads the scene.
     ///
     /// # Errors
-    /// A scene that does not fit into the device, or what its driver refuses.
+    /// A scene with cut-out surfaces or one that does not fit into the device, or what its driver refuses.
     pub fn new(tracer: &'a Tracer, gpu: &'a TruthGpu) -> Result<Self, ReferenceError> {
         if tracer.surfaces.corners.len() >= IN_AIR as usize {
             return Err(ReferenceError::TooManyTriangles(tracer.surfaces.corners.len()));
+        }
+        if tracer.has_masks() {
+            return Err(ReferenceError::MasksOnGpu);
         }
         let planes = Planes::new(tracer);
         let scene = Scene::new(tracer, &planes, &gpu.device)?;

@@ -2,7 +2,7 @@
 
 use super::Rulings;
 use super::blocks::{Blocks, Survey};
-use super::lines::Lines;
+use super::lines::{Lines, REPLICATES};
 use super::volume;
 use crate::Points;
 use crate::receiver::Receiver;
@@ -22,6 +22,10 @@ const TOGETHER: usize = 64;
 pub(super) struct Desk {
     pub(super) scratch: Scratch,
     pub(super) blocks: Blocks,
+    /// Cut-out triangles.
+    pub(super) cards: Blocks,
+    /// What was hidden before one of them, per row.
+    pub(super) before: Vec<[u32; REPLICATES]>,
     pub(super) surveys: Vec<(usize, Survey)>,
     open: Vec<u32>,
     pub(super) lines: Lines,
@@ -82,7 +86,12 @@ impl<F: Find> WithSimd for Group<'_, F> {
         let receivers: Vec<Receiver> =
             order.iter().map(|&i| Receiver::new(surfaces, points, i as usize)).collect();
         if task.settings.method != Method::ScanlineRays {
-            volume::gather(surfaces, task.light, &receivers, (&mut desk.open, &mut desk.blocks));
+            volume::gather(
+                surfaces,
+                task.light,
+                &receivers,
+                (&mut desk.open, &mut desk.blocks, &mut desk.cards),
+            );
         }
         let mut last = 0;
         let mut found = Vec::with_capacity(order.len());

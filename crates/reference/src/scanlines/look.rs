@@ -1,20 +1,42 @@
 //! What one receiver sees of the light.
 
+use super::blocks::{Block, Sides, Survey};
 use super::eight::LANES;
 use super::frame::{Frame, Turn};
 use super::groups::Desk;
+use super::lines::Lines;
 use super::lines::Ruling;
 use super::outline::{self, Edge, Outline};
+use super::veil::Veil;
 use crate::aim::{Aim, Elevation};
 use crate::rays;
 use crate::receiver::Receiver;
 use crate::samples::LightSamples;
 use crate::truth::{Method, Sight, Task};
+use pulp::Arch;
 
 /// Covers what is hidden. Lit and hidden are exact: nothing is between, or one triangle is before the
 /// whole light.
 #[inline(always)]
 pub(super) fn look(
+    task: &Task,
+    (receiver, aim): (&Receiver, &Aim),
+    (frame, turn): (&Frame, &Turn),
+    (ruling, seed): (&Ruling, u64),
+    desk: &mut Desk,
+    last: &mut usize,
+) -> Sight {
+    let sight = past_whole(task, (receiver, aim), (frame, turn), (ruling, seed), desk, last);
+    match &task.tracer.surfaces.cutouts {
+        Some(cutouts) if !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => Arch::new()
+            .dispatch(Veil { task, cutouts, receiver, aim, frame, turn, ruling, seed, desk, sight }),
+        _ => sight,
+    }
+}
+
+/// The same of surfaces that are whole.
+#[inline(always)]
+fn past_whole(
     task: &Task,
     (receiver, aim): (&Receiver, &Aim),
     (frame, turn): (&Frame, &Turn),
@@ -60,14 +82,7 @@ pub(super) fn look(
             }
             let block = &blocks.blocks[at];
             let mut survey = block.survey(frame);
-            let mut doubtful = survey.doubtful;
-            while doubtful != 0 {
-                let lane = doubtful.trailing_zeros() as usize;
-                doubtful &= doubtful - 1;
-                if receiver.skips(block.slots[lane], &block.triangle(lane)) {
-                    survey.some &= !(1 << lane);
-                }
-            }
+            leave_own(&mut survey, block, receiver);
             if survey.some & survey.whole != 0 {
                 *last = at;
                 return Sight::Hidden;
@@ -89,26 +104,9 @@ pub(super) fn look(
         while some != 0 {
             let lane = some.trailing_zeros() as usize;
             some &= some - 1;
-            let straddles = survey.straddle >> lane & 1 != 0;
-            if straddles && !frame.flat {
-                let slot = blocks.blocks[*at].slots[lane];
-                lines.trace((frame, turn, aim), &mut desk.samples, |samples| {
-                    rays::crosses(surfaces, (receiver, aim), samples, slot)
-                });
-                continue;
-            }
-            if straddles || sides.open >> lane & 1 != 0 {
-                let mut outline = Outline::new();
-                for edge in survey.edges(lane) {
-                    outline.add(turn, edge);
-                }
-                if straddles {
-                    outline.add(turn, survey.nearer(lane, frame.depth[0]));
-                }
-                outline.cover(lines, frame);
-            } else {
-                outline::cover(&sides, lane, lines, frame);
-            }
+            let slot = blocks.blocks[*at].slots[lane];
+            let one = (survey, &sides, lane, slot);
+            cover(task, (receiver, aim), (frame, turn), one, (&mut *lines, &mut desk.samples));
         }
         if lines.full() {
             *last = *at;
@@ -116,4 +114,48 @@ pub(super) fn look(
         }
     }
     Sight::Sampled
+}
+
+/// Leaves out the receiver's own triangle and what is in its plane or below its horizon. In place: a
+/// survey is a kilobyte.
+#[inline(always)]
+pub(super) fn leave_own(survey: &mut Survey, block: &Block, receiver: &Receiver) {
+    let mut doubtful = survey.doubtful;
+    while doubtful != 0 {
+        let lane = doubtful.trailing_zeros() as usize;
+        doubtful &= doubtful - 1;
+        if receiver.skips(block.slots[lane], &block.triangle(lane)) {
+            survey.some &= !(1 << lane);
+        }
+    }
+}
+
+/// Hides what is behind one triangle of a survey.
+#[inline(always)]
+pub(super) fn cover(
+    task: &Task,
+    (receiver, aim): (&Receiver, &Aim),
+    (frame, turn): (&Frame, &Turn),
+    (survey, sides, lane, slot): (&Survey, &Sides, usize, u32),
+    (lines, samples): (&mut Lines, &mut LightSamples),
+) {
+    let straddles = survey.straddle >> lane & 1 != 0;
+    if straddles && !frame.flat {
+        lines.trace((frame, turn, aim), samples, |samples| {
+            rays::crosses(&task.tracer.surfaces, (receiver, aim), samples, slot)
+        });
+        return;
+    }
+    if straddles || sides.open >> lane & 1 != 0 {
+        let mut outline = Outline::new();
+        for edge in survey.edges(lane) {
+            outline.add(turn, edge);
+        }
+        if straddles {
+            outline.add(turn, survey.nearer(lane, frame.depth[0]));
+        }
+        outline.cover(lines, frame);
+    } else {
+        outline::cover(sides, lane, lines, frame);
+    }
 }

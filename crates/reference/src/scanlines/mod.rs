@@ -13,6 +13,7 @@ mod groups;
 mod lines;
 mod look;
 mod outline;
+mod veil;
 mod volume;
 mod weights;
 

@@ -18,14 +18,15 @@ struct Volume {
     high: Vec3A,
 }
 
-/// Lists the triangles that may hide a part of the light from any of the receivers.
+/// Lists the triangles that may hide a part of the light from any of the receivers; cut-out ones apart.
 pub(super) fn gather(
     surfaces: &Surfaces,
     light: &AreaLight,
     receivers: &[Receiver],
-    (open, blocks): (&mut Vec<u32>, &mut Blocks),
+    (open, blocks, cards): (&mut Vec<u32>, &mut Blocks, &mut Blocks),
 ) {
     blocks.clear();
+    cards.clear();
     open.clear();
     let volume = Volume::new(light, receivers, f64::from(surfaces.extent));
     open.push(0);
@@ -42,11 +43,12 @@ pub(super) fn gather(
         for slot in first..first + node.prim_count {
             let corners = surfaces.corners[slot as usize];
             if !volume.misses(&corners) {
-                blocks.push(slot, &corners);
+                if surfaces.is_cut(slot) { &mut *cards } else { &mut *blocks }.push(slot, &corners);
             }
         }
     }
     blocks.close();
+    cards.close();
 }
 
 impl Volume {

@@ -85,14 +85,40 @@ impl Silhouette {
         let y = samples.y.chunks_exact(LANES);
         let nearness = samples.nearness.chunks_exact(LANES);
         for (((x, y), nearness), cover) in x.zip(y).zip(nearness).zip(cover.chunks_exact_mut(LANES)) {
-            let mut inside = [f32::MAX; LANES];
-            for form in &self.forms[..self.count] {
-                form.lower(x, y, nearness, &mut inside);
-            }
+            let inside = self.inside(x, y, nearness);
             for (cover, inside) in cover.iter_mut().zip(inside) {
                 *cover = if inside > *cover { inside } else { *cover };
             }
         }
+    }
+
+    /// The same, only for samples whose place passes a test.
+    pub(crate) fn cover_where(
+        &self,
+        samples: &LightSamples,
+        cover: &mut [f32],
+        passes: impl Fn([f32; 2]) -> bool,
+    ) {
+        let x = samples.x.chunks_exact(LANES);
+        let y = samples.y.chunks_exact(LANES);
+        let nearness = samples.nearness.chunks_exact(LANES);
+        for (((x, y), nearness), cover) in x.zip(y).zip(nearness).zip(cover.chunks_exact_mut(LANES)) {
+            let inside = self.inside(x, y, nearness);
+            for k in 0..LANES {
+                if inside[k] >= 0.0 && cover[k] < 0.0 && passes([x[k], y[k]]) {
+                    cover[k] = inside[k];
+                }
+            }
+        }
+    }
+
+    /// Not negative inside.
+    fn inside(&self, x: &[f32], y: &[f32], nearness: &[f32]) -> [f32; LANES] {
+        let mut inside = [f32::MAX; LANES];
+        for form in &self.forms[..self.count] {
+            form.lower(x, y, nearness, &mut inside);
+        }
+        inside
     }
 }
 

@@ -11,12 +11,13 @@ pub(crate) fn scene(triangles: &[[Vec3; 3]]) -> Scene {
         positions: triangles.iter().flatten().copied().collect(),
         triangles: (0..triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect(),
         material: vec![0; triangles.len()],
+        uvs: vec![],
     };
     Scene {
         name: "test".into(),
         title: "a test".into(),
         geometry,
-        materials: vec![Material { name: "grey".into(), albedo: Vec3::splat(0.5) }],
+        materials: vec![Material::plain("grey", Vec3::splat(0.5))],
         lights: vec![overhead_sun(0.53)],
         paths: vec![],
         shadow_region: ShadowRegion { centre: Vec3::ZERO, width_world: 30.0, reference_gap_world: 1.0 },

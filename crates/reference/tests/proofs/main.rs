@@ -4,6 +4,7 @@ mod agreement;
 mod cache;
 mod closed_forms;
 mod common;
+mod cutouts;
 mod exact;
 mod gpu;
 mod independence;

@@ -18,7 +18,7 @@ pub(crate) struct Paint(u32);
 
 impl Model {
     pub(crate) fn paint(&mut self, name: &str, albedo: [f32; 3]) -> Paint {
-        self.materials.push(Material { name: name.to_owned(), albedo: Vec3::from(albedo) });
+        self.materials.push(Material::plain(name, Vec3::from(albedo)));
         Paint(self.materials.len() as u32 - 1)
     }
 
@@ -27,6 +27,7 @@ impl Model {
             name: name.into(),
             positions: mesh.positions,
             triangles: mesh.triangles,
+            uvs: Vec::new(),
             material: paint.0,
         });
     }

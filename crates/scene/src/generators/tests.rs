@@ -82,7 +82,8 @@ fn every_solid_is_closed_and_faces_outwards() {
 fn nothing_is_degenerate_or_suspicious() {
     for name in builtin_names() {
         let scene = Scene::builtin(name).expect("a scene");
-        let notes: &[&str] = if name == ROOM { &["2 lights: the first is scored"] } else { &[] };
+        let notes: &[&str] =
+            if name == ROOM { &["2 lights: number 1 is scored; --light chooses"] } else { &[] };
         assert_eq!(scene.notes, notes, "{name}");
         assert_eq!(scene.origin, DVec3::ZERO);
         assert!(

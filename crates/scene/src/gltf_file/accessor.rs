@@ -45,6 +45,11 @@ impl Buffers {
         self.components(accessor, number_from)
     }
 
+    /// The bytes of a view; `None` when its buffer is too short.
+    pub(super) fn view(&self, view: &View) -> Option<&[u8]> {
+        self.0.get(view.buffer().index())?.get(view.offset()..)?.get(..view.length())
+    }
+
     /// All indices of an accessor.
     pub(super) fn indices(&self, accessor: &Accessor) -> Result<Vec<u32>, String> {
         let whole = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
@@ -95,7 +100,7 @@ impl Buffers {
 
     /// The bytes of each element; `None` when the view or the buffer is too short.
     fn elements(&self, view: &View, offset: usize, count: usize, size: usize) -> Option<Vec<&[u8]>> {
-        let bytes = self.0.get(view.buffer().index())?.get(view.offset()..)?.get(..view.length())?;
+        let bytes = self.view(view)?;
         let stride = view.stride().unwrap_or(size);
         let bytes = bytes.get(offset..)?;
         // Before anything of this length is made.
@@ -111,7 +116,8 @@ impl Buffers {
     }
 }
 
-fn read_uri(uri: &str, folder: &Path) -> Result<Vec<u8>, String> {
+/// The bytes of a data URI or of a file beside the model.
+pub(super) fn read_uri(uri: &str, folder: &Path) -> Result<Vec<u8>, String> {
     if uri.starts_with("data:") {
         let data = gltf::buffer::Data::from_source(Source::Uri(uri), None);
         return data.map(|data| data.0).map_err(|error| format!("data URI: {error}"));

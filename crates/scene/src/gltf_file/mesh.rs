@@ -1,18 +1,27 @@
 //! Triangles of a node's mesh.
 
 use super::accessor::Buffers;
+use super::instances;
+use super::materials::Layout;
 use super::nodes::{Placed, name_of};
 use crate::model::{Model, Object};
-use glam::DVec3;
+use glam::{DVec2, DVec3, Vec2};
+use gltf::Document;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::{Mode, Primitive, Semantic};
 
-/// Adds an object per primitive, in world space. A mirroring transform turns triangles inside out;
-/// they are turned back.
-pub(super) fn add(model: &mut Model, placed: &Placed, buffers: &Buffers) -> Result<(), String> {
+/// Adds an object per primitive and instance, in world space. A mirroring transform turns triangles
+/// inside out; they are turned back. Both sides are seen, whatever `doubleSided` says.
+pub(super) fn add(
+    model: &mut Model,
+    placed: &Placed,
+    (document, buffers): (&Document, &Buffers),
+    layouts: &[Option<Layout>],
+) -> Result<(), String> {
     let Some(mesh) = placed.node.mesh() else { return Ok(()) };
     let name = name_of(&placed.node, mesh.name());
-    let mirrored = placed.world_from_node.matrix3.determinant() < 0.0;
+    let places = instances::places(placed, (document, buffers));
+    let places = places.map_err(|message| format!("object '{name}': {message}"))?;
     for primitive in mesh.primitives() {
         let failed = |message: String| format!("object '{name}': {message}");
         let positions = primitive.get(&Semantic::Positions).ok_or("it has no positions".to_owned());
@@ -21,20 +30,50 @@ pub(super) fn add(model: &mut Model, placed: &Placed, buffers: &Buffers) -> Resu
             return Err(failed(format!("positions are {:?}, not F32", positions.data_type())));
         }
         let numbers = buffers.numbers(&positions, Dimensions::Vec3).map_err(failed)?;
-        let place = |p: &[f64]| placed.world_from_node.transform_point3(DVec3::new(p[0], p[1], p[2]));
-        let positions: Vec<DVec3> = numbers.chunks_exact(3).map(place).collect();
-        let Some(mut triangles) = triangles(&primitive, positions.len(), buffers).map_err(failed)? else {
+        let vertices = numbers.len() / 3;
+        let Some(triangles) = triangles(&primitive, vertices, buffers).map_err(failed)? else {
             model.notes.push(format!("a part of object '{name}' is points or lines and is left out"));
             continue;
         };
-        if mirrored {
-            triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
-        }
         let default = model.materials.len() - 1;
-        let material = primitive.material().index().unwrap_or(default) as u32;
-        model.objects.push(Object { name: name.clone(), positions, triangles, material });
+        let material = primitive.material().index().unwrap_or(default);
+        let uvs = match &layouts[material] {
+            Some(layout) => uvs(&primitive, layout, (&triangles, buffers)).map_err(failed)?,
+            None => Vec::new(),
+        };
+        if layouts[material].is_some() && uvs.is_empty() {
+            model
+                .notes
+                .push(format!("object '{name}' has a texture but no place in it: its first texel is used"));
+        }
+        for world_from_mesh in &places {
+            let place = |p: &[f64]| world_from_mesh.transform_point3(DVec3::new(p[0], p[1], p[2]));
+            let positions = numbers.chunks_exact(3).map(place).collect();
+            let (mut triangles, mut uvs) = (triangles.clone(), uvs.clone());
+            if world_from_mesh.matrix3.determinant() < 0.0 {
+                triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+                uvs.iter_mut().for_each(|uvs| uvs.swap(1, 2));
+            }
+            let material = material as u32;
+            model.objects.push(Object { name: name.clone(), positions, triangles, uvs, material });
+        }
     }
     Ok(())
+}
+
+/// Per triangle; none where the mesh has no such set of coordinates.
+fn uvs(
+    primitive: &Primitive,
+    layout: &Layout,
+    (triangles, buffers): (&[[u32; 3]], &Buffers),
+) -> Result<Vec<[Vec2; 3]>, String> {
+    let Some(accessor) = primitive.get(&Semantic::TexCoords(layout.set)) else { return Ok(Vec::new()) };
+    let numbers = buffers.numbers(&accessor, Dimensions::Vec2)?;
+    let places = numbers.chunks_exact(2).map(|uv| layout.place(DVec2::new(uv[0], uv[1])).as_vec2());
+    let places: Vec<Vec2> = places.collect();
+    // A vertex that does not exist is found out with its position.
+    let corner = |v: u32| places.get(v as usize).copied().filter(|uv| uv.is_finite()).unwrap_or_default();
+    Ok(triangles.iter().map(|triangle| triangle.map(corner)).collect())
 }
 
 /// `None` for points and lines.

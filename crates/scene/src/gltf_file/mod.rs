@@ -1,11 +1,13 @@
-//! glTF 2.0 through the gltf crate: meshes under their nodes' transforms, base colour factors,
-//! perspective cameras and their animation.
+//! glTF 2.0 through the gltf crate: meshes under their nodes' transforms, base colours, cut-outs
+//! (`MASK`), perspective cameras and their animation.
 //!
-//! Deliberately absent: textures, skins, morph targets, the file's own lights (they have no size).
+//! Deliberately absent: skins, morph targets, translucency, the file's own lights (they have no size).
 //! What is left out and would be missed is said in a note.
 
 mod accessor;
 mod animation;
+mod instances;
+mod materials;
 mod mesh;
 mod nodes;
 #[cfg(test)]
@@ -13,14 +15,15 @@ mod tests;
 
 pub(crate) use animation::CameraTrack;
 
+use crate::SceneError;
 use crate::model::Model;
-use crate::{Material, SceneError};
 use accessor::Buffers;
-use glam::Vec3;
 use gltf::json::Root;
 use gltf::json::validation::Checked;
 use gltf::material::AlphaMode;
+use gltf::mesh::Semantic;
 use gltf::{Document, Gltf};
+use materials::Materials;
 use std::path::Path;
 
 pub(crate) fn read(path: &Path) -> Result<Model, SceneError> {
@@ -38,14 +41,19 @@ fn model_from(bytes: &[u8], folder: &Path) -> Result<Model, String> {
     check_header(bytes)?;
     let Gltf { document, blob } =
         Gltf::from_slice_without_validation(bytes).map_err(|error| error.to_string())?;
-    let root = document.into_json();
+    let mut root = document.into_json();
     check_references(&root)?;
+    // The gltf crate has its own, shorter list of those that it knows.
+    root.extensions_required.clear();
     let document = Document::from_json(root).map_err(|error| error.to_string())?;
     let buffers = Buffers::read(&document, blob, folder)?;
-    let mut model = Model { materials: materials(&document), notes: notes(&document), ..Model::default() };
+    let mut materials = Materials::read(&document, &buffers, folder)?;
+    let mut notes = notes(&document);
+    notes.append(&mut materials.notes);
+    let mut model = Model { materials: std::mem::take(&mut materials.all), notes, ..Model::default() };
     let nodes = nodes::placed(&document)?;
     for (at, placed) in nodes.iter().enumerate() {
-        mesh::add(&mut model, placed, &buffers)?;
+        mesh::add(&mut model, placed, (&document, &buffers), &materials.layouts)?;
         nodes::add_camera(&mut model, &nodes, at, (&document, &buffers))?;
     }
     Ok(model)
@@ -68,6 +76,11 @@ fn check_references(root: &Root) -> Result<(), String> {
     if let Some(missing) = accessors.find(|index| index.value() >= root.accessors.len()) {
         return Err(format!("a mesh uses accessor {missing}, which does not exist"));
     }
+    if let Some(unknown) = root.extensions_required.iter().find(|name| !is_known(name)) {
+        return Err(format!(
+            "it needs the extension {unknown}, which is not read: export it without (in Blender: without compression)"
+        ));
+    }
     for (i, animation) in root.animations.iter().enumerate() {
         for channel in &animation.channels {
             let known = channel.target.node.value() < root.nodes.len();
@@ -79,26 +92,24 @@ fn check_references(root: &Root) -> Result<(), String> {
     Ok(())
 }
 
-/// All of the file's, and the default one (white) last.
-fn materials(document: &Document) -> Vec<Material> {
-    let named = document.materials().map(|material| {
-        let [r, g, b, _] = material.pbr_metallic_roughness().base_color_factor();
-        let unnamed = || format!("material {}", material.index().unwrap_or_default());
-        let name = material.name().map_or_else(unnamed, str::to_owned);
-        Material { name, albedo: Vec3::new(r, g, b) }
-    });
-    let default = Material { name: "default".to_owned(), albedo: Vec3::ONE };
-    named.chain([default]).collect()
+/// Extensions that are read, or that change no shape.
+fn is_known(extension: &str) -> bool {
+    let read = ["KHR_texture_transform", "EXT_mesh_gpu_instancing", "KHR_lights_punctual"];
+    read.contains(&extension) || extension.starts_with("KHR_materials_")
 }
 
 fn notes(document: &Document) -> Vec<String> {
-    let textured =
-        document.materials().filter(|m| m.pbr_metallic_roughness().base_color_texture().is_some()).count();
-    let cut_out = document.materials().filter(|m| m.alpha_mode() != AlphaMode::Opaque).count();
+    let translucent = document.materials().filter(|m| m.alpha_mode() == AlphaMode::Blend).count();
     let moved = document.nodes().filter(|n| n.skin().is_some() || n.weights().is_some()).count();
+    let lights = document.nodes().filter(|n| n.light().is_some()).count();
+    let coloured = document.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
+    let cut_by_vertex = coloured.filter(|primitive| {
+        primitive.material().alpha_mode() == AlphaMode::Mask && primitive.get(&Semantic::Colors(0)).is_some()
+    });
     let all = [
-        (textured, "materials have a colour texture, which is not read"),
-        (cut_out, "materials are cut out or transparent in the file, opaque here"),
+        (translucent, "materials are translucent (BLEND) in the file, opaque here"),
+        (cut_by_vertex.count(), "cut-out parts have vertex colours, whose alpha is not read"),
+        (lights, "lights of the file have no size and are left out: [[light]] in scene.toml gives one"),
         (moved, "nodes have a skin or morph targets and stand as they were modelled"),
     ];
     all.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect()

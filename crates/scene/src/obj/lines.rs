@@ -17,13 +17,23 @@ pub(super) struct Counts {
 pub(super) struct Lines<'a> {
     rest: &'a [u8],
     counts: &'a Counts,
+    kept: Kept,
     /// Rewritten, not yet handed over; only for readers that do not ask for lines.
     pending: Vec<u8>,
 }
 
+/// What of a corner is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kept {
+    /// Its position: nobody asks for more, and a damaged texture coordinate is no reason to fail.
+    Positions,
+    /// Its place in a picture, too.
+    Pictures,
+}
+
 impl<'a> Lines<'a> {
-    pub(super) fn new(bytes: &'a [u8], counts: &'a Counts) -> Self {
-        Self { rest: bytes, counts, pending: Vec::new() }
+    pub(super) fn new(bytes: &'a [u8], counts: &'a Counts, kept: Kept) -> Self {
+        Self { rest: bytes, counts, kept, pending: Vec::new() }
     }
 
     /// The next line with all its continuations; `None` at the end.
@@ -50,23 +60,51 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A line without normals, texture coordinates, colours, comments, points and curves.
+    /// `v`, or `v/vt` of `v/vt/vn`.
+    fn corner<'b>(&self, corner: &'b str) -> &'b str {
+        let Some((position, rest)) = corner.split_once('/') else { return corner };
+        let place = rest.split_once('/').map_or(rest, |(place, _)| place);
+        match self.kept {
+            Kept::Pictures if !place.is_empty() => &corner[..position.len() + 1 + place.len()],
+            _ => position,
+        }
+    }
+
+    /// A line without normals, colours, comments, points and curves.
     fn rewritten(&self, line: &str) -> String {
         let Some((keyword, rest)) = line.split_once(char::is_whitespace) else { return String::new() };
         let rest = rest.trim();
         match keyword {
             "v" => format!("v {}", coordinates(rest)),
             "f" => {
-                let corners: Vec<&str> =
-                    rest.split_whitespace().map(|c| c.split_once('/').map_or(c, |(v, _)| v)).collect();
+                let corners: Vec<&str> = rest.split_whitespace().map(|c| self.corner(c)).collect();
                 self.counts.polygons.set(self.counts.polygons.get() + usize::from(corners.len() > 4));
                 format!("f {}", corners.join(" "))
             }
+            "vt" if self.kept == Kept::Pictures => format!("vt {}", texture_coordinates(rest)),
             "o" | "g" => format!("{keyword} {rest}"),
             "usemtl" | "mtllib" if !rest.is_empty() => format!("{keyword} {rest}"),
             _ => String::new(),
         }
     }
+}
+
+/// u and v; v is 0 where it is left out.
+fn texture_coordinates(rest: &str) -> String {
+    let mut words = rest.split_whitespace();
+    let (u, v) = (words.next().unwrap_or("0"), words.next().unwrap_or("0"));
+    format!("{u} {v}")
+}
+
+/// The libraries that a file names.
+pub(super) fn libraries(bytes: &[u8]) -> Vec<String> {
+    let counts = Counts::default();
+    let mut lines = Lines::new(bytes, &counts, Kept::Positions);
+    let mut names = Vec::new();
+    while let Some(line) = lines.next_line() {
+        names.extend(line.strip_prefix("mtllib ").map(|name| name.trim().to_owned()));
+    }
+    names
 }
 
 /// x, y, z, and w if it is the only further number (else it is a colour).

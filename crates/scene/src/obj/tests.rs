@@ -163,6 +163,6 @@ proptest! {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("x.mtl");
         std::fs::write(&path, text).expect("written");
-        let _ = super::material_library(&path);
+        let _ = super::library::read(&path);
     }
 }

@@ -31,9 +31,12 @@ pub struct SceneFile {
     /// What a shadow map must cover; fitted to the model's bounds when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shadow_region: Option<ShadowRegionSpec>,
-    /// At least one; the first is the one that is scored.
+    /// At least one.
     #[serde(rename = "light")]
     pub lights: Vec<LightSpec>,
+    /// Which of them is scored, from 0; chosen by who reads the file, never written in it.
+    #[serde(skip)]
+    pub scored_light: usize,
     /// At least one; names differ.
     #[serde(rename = "path")]
     pub paths: Vec<PathSpec>,
@@ -49,6 +52,15 @@ impl SceneFile {
         let source = std::fs::read_to_string(path)
             .map_err(|source| SceneError::Read { path: path.to_owned(), source })?;
         Self::parse(&source, path)
+    }
+
+    /// That of a standard scene.
+    ///
+    /// # Errors
+    /// `UnknownName` with the nearest name when there is none.
+    pub fn builtin(name: &str) -> Result<Self, SceneError> {
+        let (source, path) = crate::builtin::source(name)?;
+        Self::parse(source, &path)
     }
 
     /// Reads the text of a `scene.toml`; `path` is only for messages.

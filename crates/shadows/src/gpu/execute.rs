@@ -1,5 +1,6 @@
 //! Runs a recording: encodes its passes, times them, reads the values back.
 
+use super::pipelines::{Drawn, Raster};
 use super::textures::Allocated;
 use super::{Gpu, MAX_TIMED_PASSES};
 use crate::recording::{Binding, ComputePass, Pass, RasterPass, Recording, TextureId};
@@ -124,8 +125,13 @@ impl Gpu {
         run: &Run<'_>,
         (pass, slot): (&RasterPass, Option<u32>),
     ) {
-        let compiled = self.pipelines.raster(&self.device.device, (pass, run.recording));
-        let group = self.bind_group(run, &compiled.layout, &pass.bindings);
+        let whole = self.pipelines.raster(&self.device.device, (pass, Drawn::Whole, run.recording));
+        let group = self.bind_group(run, &whole.layout, &pass.bindings);
+        let cut = (!pass.cut.is_empty()).then(|| {
+            let compiled = self.pipelines.raster(&self.device.device, (pass, Drawn::CutOut, run.recording));
+            let group = self.bind_group(run, &compiled.layout, &Drawn::CutOut.bindings(pass));
+            (compiled, group)
+        });
         let view = |t: TextureId| view_of(&run.allocated.textures[t.0], Some(0));
         let clears = pass.viewport.is_none_or(|[x, y, ..]| x == 0 && y == 0);
         let depth = view(pass.depth);
@@ -160,15 +166,21 @@ impl Gpu {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        if let Some((vertices, count)) = &self.vertices {
-            encoded.set_pipeline(&compiled.pipeline);
-            encoded.set_bind_group(0, &group, &[]);
+        if let Some(scene) = &self.scene {
             if let Some([x, y, width, height]) = pass.viewport {
                 encoded.set_viewport(x as f32, y as f32, width as f32, height as f32, 0.0, 1.0);
                 encoded.set_scissor_rect(x, y, width, height);
             }
-            encoded.set_vertex_buffer(0, vertices.slice(..));
-            encoded.draw(0..*count, 0..1);
+            let mut draw = |compiled: &Raster, group, (vertices, count): &(wgpu::Buffer, u32)| {
+                encoded.set_pipeline(&compiled.pipeline);
+                encoded.set_bind_group(0, group, &[]);
+                encoded.set_vertex_buffer(0, vertices.slice(..));
+                encoded.draw(0..*count, 0..1);
+            };
+            draw(&whole, &group, &scene.whole);
+            if let Some((compiled, group)) = &cut {
+                draw(compiled, group, &scene.cut);
+            }
         }
     }
 
@@ -187,6 +199,7 @@ impl Gpu {
                     run.globals.get(age)?.as_entire_binding()
                 }
                 Binding::Values => run.values.as_entire_binding(),
+                Binding::Cutouts => self.scene.as_ref()?.masks.as_entire_binding(),
                 Binding::Anchors => self.anchors.as_ref()?.0.as_entire_binding(),
                 _ => wgpu::BindingResource::Sampler(&self.pipelines.nearest),
             })

@@ -8,7 +8,8 @@ mod textures;
 pub use execute::Timing;
 
 use crate::ShadowError;
-use crate::layout::{Anchor, Vertex};
+use crate::layout::Anchor;
+use crate::triangles::Triangles;
 use pipelines::Pipelines;
 use textures::Textures;
 use umbrage_device::{AdapterChoice, AdapterDescription, Device, DeviceError};
@@ -19,8 +20,15 @@ pub struct Gpu {
     pipelines: Pipelines,
     textures: Textures,
     timestamps: Option<wgpu::QuerySet>,
-    vertices: Option<(wgpu::Buffer, u32)>,
+    scene: Option<Uploaded>,
     anchors: Option<(wgpu::Buffer, u32)>,
+}
+
+/// A scene's triangles and how many vertices they have: whole ones, cut-out ones and their masks.
+struct Uploaded {
+    whole: (wgpu::Buffer, u32),
+    cut: (wgpu::Buffer, u32),
+    masks: wgpu::Buffer,
 }
 
 /// Passes of a recording that are timed.
@@ -35,7 +43,7 @@ impl Gpu {
         let device = Device::open(choice)?;
         let timestamps = device.timestamps("pass times", 2 * MAX_TIMED_PASSES);
         let (pipelines, textures) = (Pipelines::new(&device.device), Textures::default());
-        Ok(Self { device, pipelines, textures, timestamps, vertices: None, anchors: None })
+        Ok(Self { device, pipelines, textures, timestamps, scene: None, anchors: None })
     }
 
     /// Which adapter this is.
@@ -59,12 +67,25 @@ impl Gpu {
     }
 
     /// Replaces the triangles; returns a key of their contents.
-    pub(crate) fn upload_scene(&mut self, vertices: &[Vertex]) -> Result<u64, ShadowError> {
-        let bytes: &[u8] = bytemuck::cast_slice(vertices);
-        let buffer = self.upload("scene", bytes, wgpu::BufferUsages::VERTEX)?;
-        self.vertices = Some((buffer, vertices.len() as u32));
-        let words = bytes.chunks_exact(8).map(|c| u64::from_le_bytes(c.try_into().unwrap_or_default()));
-        Ok(words.fold(0xcbf2_9ce4_8422_2325, |hash, w| (hash ^ w).wrapping_mul(0x0100_0000_01b3)))
+    pub(crate) fn upload_scene(&mut self, triangles: &Triangles) -> Result<u64, ShadowError> {
+        let whole: &[u8] = bytemuck::cast_slice(&triangles.whole);
+        let cut: &[u8] = bytemuck::cast_slice(&triangles.cut);
+        let masks: &[u8] = bytemuck::cast_slice(&triangles.masks);
+        let vertices = wgpu::BufferUsages::VERTEX;
+        self.scene = Some(Uploaded {
+            whole: (self.upload("scene", whole, vertices)?, triangles.whole.len() as u32),
+            cut: (self.upload("cut-out", cut, vertices)?, triangles.cut.len() as u32),
+            masks: self.upload("masks", masks, wgpu::BufferUsages::STORAGE)?,
+        });
+        let hash = |hash: u64, bytes: &[u8]| {
+            let words = bytes.chunks(8).map(|chunk| {
+                let mut word = [0; 8];
+                word[..chunk.len()].copy_from_slice(chunk);
+                u64::from_le_bytes(word)
+            });
+            words.fold(hash, |hash, w| (hash ^ w).wrapping_mul(0x0100_0000_01b3))
+        };
+        Ok([whole, cut, masks].into_iter().fold(0xcbf2_9ce4_8422_2325, hash))
     }
 
     /// Replaces the anchors.

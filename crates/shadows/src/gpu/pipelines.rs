@@ -1,7 +1,8 @@
 //! Pipelines, compiled once per distinct pass.
 
+use crate::layout::{CutVertex, Vertex};
 use crate::recording::{Binding, ComputePass, Format, RasterPass, Recording, TextureId};
-use crate::shader;
+use crate::shader::{self, Fragment};
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
@@ -44,16 +45,52 @@ impl Pipelines {
         self.compute.entry(key).or_insert_with(|| compile_compute(device, (pass, &slots))).clone()
     }
 
-    /// The pipeline of a raster pass.
+    /// The pipeline of a raster pass, for one kind of triangles.
     pub(super) fn raster(
         &mut self,
         device: &wgpu::Device,
-        (pass, recording): (&RasterPass, &Recording),
+        (pass, drawn, recording): (&RasterPass, Drawn, &Recording),
     ) -> Raster {
         let formats: Vec<_> = pass.targets.iter().map(|t| recording.info(t.0).format).collect();
-        let slots = slots(&pass.bindings, recording);
-        let key = hash_of(&(&pass.shader, &formats, bits(&pass.constants), &slots));
-        self.raster.entry(key).or_insert_with(|| compile_raster(device, pass, (&formats, &slots))).clone()
+        let slots = slots(&drawn.bindings(pass), recording);
+        let key = hash_of(&(drawn.shader(pass), &formats, bits(&pass.constants), &slots));
+        let compile = || compile_raster(device, (pass, drawn), (&formats, &slots));
+        self.raster.entry(key).or_insert_with(compile).clone()
+    }
+}
+
+/// Which triangles a pipeline draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Drawn {
+    /// Those that are there everywhere.
+    Whole,
+    /// Those with a mask.
+    CutOut,
+}
+
+impl Drawn {
+    fn shader(self, pass: &RasterPass) -> &[Fragment] {
+        match self {
+            Self::Whole => &pass.shader,
+            Self::CutOut => &pass.cut,
+        }
+    }
+
+    /// What it reads.
+    pub(super) fn bindings(self, pass: &RasterPass) -> Vec<Binding> {
+        let masks = (self == Self::CutOut).then_some(Binding::Cutouts);
+        pass.bindings.iter().copied().chain(masks).collect()
+    }
+
+    /// Bytes from vertex to vertex, and what one has.
+    fn vertex(self) -> (usize, &'static [wgpu::VertexAttribute]) {
+        const WHOLE: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
+        const CUT_OUT: [wgpu::VertexAttribute; 4] =
+            wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32];
+        match self {
+            Self::Whole => (size_of::<Vertex>(), &WHOLE),
+            Self::CutOut => (size_of::<CutVertex>(), &CUT_OUT),
+        }
     }
 }
 
@@ -75,7 +112,11 @@ fn slots(bindings: &[Binding], recording: &Recording) -> Vec<Slot> {
         Binding::Destination(_) => Binding::Destination(TextureId(0)),
         Binding::EarlierGlobals(_) => Binding::Globals,
         Binding::Past(_) => Binding::Past(0),
-        other @ (Binding::Globals | Binding::Anchors | Binding::Values | Binding::Nearest) => other,
+        other @ (Binding::Globals
+        | Binding::Anchors
+        | Binding::Values
+        | Binding::Nearest
+        | Binding::Cutouts) => other,
     };
     bindings.iter().map(|b| (kind(b), format(b))).collect()
 }
@@ -123,10 +164,11 @@ fn compile_compute(device: &wgpu::Device, (pass, slots): (&ComputePass, &[Slot])
 
 fn compile_raster(
     device: &wgpu::Device,
-    pass: &RasterPass,
+    (pass, drawn): (&RasterPass, Drawn),
     (formats, slots): (&[Format], &[Slot]),
 ) -> Raster {
-    let source = shader::concatenate(&pass.shader);
+    let source = shader::concatenate(drawn.shader(pass));
+    let (stride, attributes) = drawn.vertex();
     let module = module(device, (pass.label, &source));
     let stages = wgpu::ShaderStages::VERTEX_FRAGMENT;
     let entries: Vec<_> = slots.iter().map(|&s| layout_entry(s, stages)).collect();
@@ -146,9 +188,9 @@ fn compile_raster(
             entry_point: Some("vertex"),
             compilation_options: options(),
             buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<crate::layout::Vertex>() as u64,
+                array_stride: stride as u64,
                 step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3],
+                attributes,
             })],
         },
         // Both sides of every triangle are seen and cast.
@@ -187,7 +229,9 @@ fn layout_entry((binding, format): Slot, visibility: wgpu::ShaderStages) -> wgpu
     let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
     let view_dimension = wgpu::TextureViewDimension::D2;
     let ty = match (binding, format) {
-        (Binding::Anchors, _) => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
+        (Binding::Anchors | Binding::Cutouts, _) => {
+            buffer(wgpu::BufferBindingType::Storage { read_only: true })
+        }
         (Binding::Values, _) => buffer(wgpu::BufferBindingType::Storage { read_only: false }),
         (Binding::Nearest, _) => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering),
         (_, Some(format)) if binding.is_destination() => wgpu::BindingType::StorageTexture {

@@ -37,6 +37,7 @@ pub(crate) fn depth_prepass(recording: &mut Recording, inputs: &Inputs<'_>) -> S
     recording.passes.push(Pass::Raster(RasterPass {
         label: pass,
         shader: vec![shader::RASTER_CAMERA, shader::GLOBALS],
+        cut: inputs.cut(shader::RASTER_CAMERA_CUT, &[]),
         constants: vec![],
         bindings: vec![inputs.own_globals()],
         targets: vec![(depth, 0.0), (normal, 0.0)],

@@ -32,6 +32,7 @@ fn peel(
     recording.passes.push(Pass::Raster(RasterPass {
         label,
         shader: vec![shader::RASTER_PEEL, shader::GLOBALS],
+        cut: inputs.cut(shader::RASTER_PEEL_CUT, &[]),
         constants: vec![],
         bindings: vec![Binding::Globals, Binding::Source(before)],
         targets: vec![(layer, f64::from(inputs.light.far))],

@@ -23,6 +23,7 @@ pub(crate) fn shadow_map_cleared(recording: &mut Recording, inputs: &Inputs<'_>,
     let pass = |label, shader| RasterPass {
         label,
         shader: vec![shader, shader::GLOBALS],
+        cut: inputs.cut(shader::RASTER_SHADOW_CUT, &[]),
         constants: vec![],
         bindings: vec![Binding::Globals],
         targets: vec![(map, clear)],
@@ -38,6 +39,7 @@ pub(crate) fn shadow_map_cleared(recording: &mut Recording, inputs: &Inputs<'_>,
         let index = face as u32;
         recording.passes.push(Pass::Raster(RasterPass {
             shader: vec![shader::RASTER_CUBE, shader::GLOBALS, shader::CUBE_FACES],
+            cut: inputs.cut(shader::RASTER_CUBE_CUT, &[shader::CUBE_FACES]),
             constants: vec![("FACE", face as f64)],
             viewport: Some([index % 3 * side, index / 3 * side, side, side]),
             ..pass(label, shader::RASTER_CUBE)

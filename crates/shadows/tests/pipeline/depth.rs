@@ -5,8 +5,8 @@ use crate::support::{self, still_life, variant_id};
 use glam::{DVec3, Vec3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use umbrage_frame::{Image, View};
-use umbrage_scene::{AreaLight, Camera, Scene};
-use umbrage_shadows::{Calibration, Dump, Renderer, Seeding, VariantId};
+use umbrage_scene::{AlphaMask, AreaLight, Camera, Scene, Wrap};
+use umbrage_shadows::{Calibration, Dump, Pass, Renderer, Seeding, VARIANTS, VariantId};
 
 /// Rays through places of a picture (in texels), such that the ray's parameter is linear depth.
 pub(crate) struct Caster {
@@ -70,7 +70,10 @@ impl Caster {
         let (origin, direction) =
             if self.parallel { (self.eye + aside, self.forward) } else { (self.eye, self.forward + aside) };
         let triangles = 0..scene.geometry.triangles.len();
-        let hit = |t| intersect(origin, direction, scene.geometry.corners(t).map(Vec3::as_dvec3));
+        let hit = |t| {
+            let (depth, along) = intersect(origin, direction, scene.geometry.corners(t).map(Vec3::as_dvec3))?;
+            is_there(scene, t, along).then_some(depth)
+        };
         triangles.filter_map(hit).filter(|&depth| depth > self.near).collect()
     }
 }
@@ -80,8 +83,17 @@ fn resolution(parallel: bool) -> fn(f64, f64) -> f64 {
     if parallel { |_, _| 100.0 * 4.0 * U } else { |z, near| 4.0 * U * z * z / near }
 }
 
-/// Where a ray meets a triangle, from either side (Möller and Trumbore 1997).
-fn intersect(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+/// Whether a triangle is there, so far along its first and second sides.
+fn is_there(scene: &Scene, triangle: usize, [along_ab, along_ac]: [f64; 2]) -> bool {
+    let material = &scene.materials[scene.geometry.material[triangle] as usize];
+    material.mask.as_ref().is_none_or(|mask| {
+        let [a, b, c] = scene.geometry.uvs[triangle].map(|uv| uv.as_dvec2());
+        mask.is_opaque(a + along_ab * (b - a) + along_ac * (c - a))
+    })
+}
+
+/// Where a ray meets a triangle, from either side, and how far along its sides (Möller and Trumbore 1997).
+fn intersect(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f64; 2])> {
     let (ab, ac) = (b - a, c - a);
     let p = direction.cross(ac);
     let determinant = ab.dot(p);
@@ -91,7 +103,7 @@ fn intersect(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f
     let from = origin - a;
     let (u, q) = (from.dot(p) / determinant, from.cross(ab));
     let v = direction.dot(q) / determinant;
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| ac.dot(q) / determinant)
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then(|| (ac.dot(q) / determinant, [u, v]))
 }
 
 /// Rasterisers move vertices to a grid of 1/256 pixel, an edge by half of that, and attributes may
@@ -163,6 +175,76 @@ fn shadow_map_and_camera_depth_equal_a_ray_cast() {
     let scene = still_life::scene();
     for light in [still_life::sun(), still_life::sphere(), still_life::disk()] {
         check(&scene, light, (hard(), 4000));
+    }
+}
+
+/// Cut-out surfaces are there for the rays and for the raster at the same texels of their masks, but for
+/// those whose edges a rasteriser's grid moves.
+#[test]
+fn cut_out_surfaces_equal_a_ray_cast() {
+    for wrap in [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror] {
+        let scene = still_life::leafy(still_life::leaf(wrap));
+        for light in [still_life::sun(), still_life::sphere()] {
+            check(&scene, light, (hard(), 4000));
+        }
+    }
+}
+
+/// Cut-out triangles are drawn in the passes that there are; whole scenes have no shader for them.
+#[test]
+fn masks_add_no_pass() {
+    let mut gpu = support::gpu();
+    let view = still_life::view_of(&still_life::camera());
+    let scenes = [still_life::scene(), still_life::leafy(still_life::leaf(Wrap::Repeat))];
+    for variant in VARIANTS {
+        let id = variant_id(variant.name, Calibration::LightMatched);
+        let light = still_life::light_for(id);
+        let [whole, cut] = scenes.each_ref().map(|scene| {
+            let mut renderer = Renderer::new(&mut gpu, scene, 64).expect("fits");
+            renderer.recording(id, (&view, &light), (Seeding::Frozen, [0, 0])).expect("fits").passes
+        });
+        let labels = |passes: &[Pass]| passes.iter().map(Pass::label).collect::<Vec<_>>();
+        assert_eq!(labels(&whole), labels(&cut), "{}", variant.name);
+        for (whole, cut) in whole.iter().zip(&cut) {
+            if let (Pass::Raster(whole), Pass::Raster(cut)) = (whole, cut) {
+                assert!(whole.cut.is_empty() && !cut.cut.is_empty(), "{}", whole.label);
+                assert_eq!(whole.shader, cut.shader);
+            }
+        }
+    }
+}
+
+/// All there is as no mask, none there as no triangle: in every target of variants that peel layers and
+/// draw cubes.
+#[test]
+fn masks_of_one_bit_change_nothing_or_everything() {
+    let whole = still_life::scene();
+    let mask = |there: bool| AlphaMask::new([3, 2], [Wrap::Repeat; 2], |_, _| there);
+    let mut bare = whole.clone();
+    let kept = bare.geometry.triangles.len() - 2 - 3 * 12;
+    bare.geometry.triangles.truncate(kept);
+    bare.geometry.material.truncate(kept);
+    let cube = |id: &VariantId| id.name().starts_with("pcf-cube");
+    let peels = |id: &VariantId| id.name().starts_with("chss-layers");
+    let every = VARIANTS.iter().map(|v| variant_id(v.name, Calibration::LightMatched));
+    let chosen: Vec<VariantId> = every.filter(|id| cube(id) || peels(id)).collect();
+    assert!(chosen.iter().any(cube) && chosen.iter().any(peels), "{:?}", chosen.len());
+    for id in chosen {
+        let light = still_life::light_for(id);
+        for (scene, there) in [(&whole, true), (&bare, false)] {
+            let (_, expected) = targets(scene, &light, id);
+            // The same light map: its depths are those of the surfaces, there or not.
+            let mut cut = still_life::leafy(mask(there));
+            if !there {
+                cut.geometry.positions.clone_from(&scene.geometry.positions);
+            }
+            let (_, found) = targets(&cut, &light, id);
+            for (a, b) in expected.iter().zip(&found) {
+                assert_eq!(a.label, b.label);
+                let same = a.channels.iter().zip(&b.channels).all(|(a, b)| a.pixels() == b.pixels());
+                assert!(same, "{}, {there}: {}", id.name(), a.label);
+            }
+        }
     }
 }
 

@@ -47,6 +47,7 @@ pub(crate) fn recording_of(id: VariantId, texels: u32) -> Recording {
         receivers: Receivers::Frame,
         seeding: Seeding::Fresh,
         geometry_key: 0,
+        has_cutouts: false,
         past: &past,
         age: 0,
     };

@@ -2,9 +2,9 @@
 //! stacked blockers, a thin pole, a tilted plane, an open sheet, a floor that reaches beyond the
 //! shadow map, and sky.
 
-use glam::{Mat4, Quat, Vec3};
+use glam::{Mat4, Quat, Vec2, Vec3};
 use umbrage_frame::View;
-use umbrage_scene::{AreaLight, Camera, Geometry, Material, Scene, ShadowRegion};
+use umbrage_scene::{AlphaMask, AreaLight, Camera, Geometry, Material, Scene, ShadowRegion, Wrap};
 use umbrage_shadows::VariantId;
 
 /// Width and height of the test pictures.
@@ -26,6 +26,24 @@ pub(crate) fn scene() -> Scene {
     of_geometry(geometry)
 }
 
+/// The same with its last two plates, the pole and the sheet cut out by a mask.
+pub(crate) fn leafy(mask: AlphaMask) -> Scene {
+    let mut scene = scene();
+    let count = scene.geometry.triangles.len();
+    let first = count - 2 - 3 * 12;
+    let corner = |u: f32, v: f32| Vec2::new(u, v) * 2.3 - 0.4;
+    let (a, b, c, d) = (corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0));
+    scene.geometry.uvs = (0..count).map(|t| if t % 2 == 0 { [a, b, c] } else { [a, c, d] }).collect();
+    scene.geometry.material = (0..count).map(|t| u32::from(t >= first)).collect();
+    scene.materials.push(Material { mask: Some(mask), ..Material::plain("leaf", Vec3::ONE) });
+    scene
+}
+
+/// A mask without a symmetry.
+pub(crate) fn leaf(wrap: Wrap) -> AlphaMask {
+    AlphaMask::new([5, 3], [wrap; 2], |x, y| (x * 7 + y * 3) % 5 < 2)
+}
+
 /// A scene of these triangles, under the same lights and with the same shadow region.
 pub(crate) fn of_geometry(geometry: Geometry) -> Scene {
     let material = vec![0; geometry.triangles.len()];
@@ -33,7 +51,7 @@ pub(crate) fn of_geometry(geometry: Geometry) -> Scene {
         name: "still-life".into(),
         title: "blocks, plates, a pole and a sheet".into(),
         geometry: Geometry { material, ..geometry },
-        materials: vec![Material { name: "grey".into(), albedo: Vec3::splat(0.5) }],
+        materials: vec![Material::plain("grey", Vec3::splat(0.5))],
         lights: vec![sun(), sphere()],
         paths: Vec::new(),
         shadow_region: ShadowRegion {
