@@ -56,7 +56,8 @@ struct Printer<'a> {
     beside: Option<(PathBuf, &'a str)>,
 }
 
-const BESIDE: &str = "index_files";
+/// The folder beside a page.
+pub(crate) const BESIDE: &str = "index_files";
 
 /// Makes every picture of a run.
 pub(crate) fn make_book(

@@ -16,6 +16,8 @@ mod picture;
 mod plot;
 mod store;
 mod tables;
+mod trace;
+mod viewer;
 mod words;
 mod write;
 
@@ -33,7 +35,7 @@ pub use gate::{
     BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, ChangeCard, GateCard, GateCase, MarginCard,
     Margins, Side, compare, gated, not_comparable, write_gate_crops,
 };
-pub use store::{RunWriter, VariantPictures, WindowPictures};
+pub use store::{RunWriter, Surface, VariantPictures, WindowPictures};
 pub use write::{Layout, Written, write_report};
 
 // Unit tests read the same made-up run as the tests outside, which know this crate by its name.

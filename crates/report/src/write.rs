@@ -1,11 +1,13 @@
 //! From a stored run to its pages.
 
-use crate::book::make_book;
+use crate::book::{BESIDE, make_book};
 use crate::error::write_whole;
 use crate::gate::GateCard;
-use crate::page::page;
+use crate::page::{Sources, page};
 use crate::store::{read_index, scorecard_path};
 use crate::tables::{junit, scores_csv, summary};
+use crate::trace::traces;
+use crate::viewer::{describe, pack};
 use crate::{ReportError, Scorecard};
 use std::path::{Path, PathBuf};
 
@@ -47,7 +49,9 @@ pub fn write_report(run: &Path, layout: Layout) -> Result<Written, ReportError> 
     let gate = gate.as_ref();
     let pictures = read_index(run)?;
     let book = make_book(run, &card, &pictures, layout)?;
-    let html = page(&card, &book, gate);
+    let planes = pack(run, &card, &pictures, (layout, BESIDE))?;
+    let description = describe(&card, &book, &planes, &traces(run, &card)?);
+    let html = page(Sources { card: &card, book: &book, gate, planes: &planes, description: &description });
     let mut warnings = Vec::new();
     if pictures.windows.is_empty() {
         warnings.push("the run has no pictures: the page shows numbers only".to_string());

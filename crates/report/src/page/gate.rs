@@ -29,6 +29,7 @@ pub(super) fn section(gate: &GateCard) -> Markup {
                 ". Same tiles, seeds and frames on both sides; what may fail is corrected for the number of comparisons. "
                 "Accept this run with " code { (gate.accept) } "."
             }
+            (thresholds())
             @if !gate.new.is_empty() { p.note { "Not in the baseline: " (gate.new.join(", ")) "." } }
             @for (verdict, title, open) in [
                 (Regressed, "Regressed", true),
@@ -46,6 +47,44 @@ pub(super) fn section(gate: &GateCard) -> Markup {
             }
         }
     }
+}
+
+/// Filled by the script: what would fail with wider or narrower margins.
+fn thresholds() -> Markup {
+    html! {
+        div.thresholds hidden {
+            h3 { "What if the margins were others?" }
+            p {
+                label { "Margins from 1/16 to 16 times as wide " input type="range" min="-4" max="4" step="0.25" value="0"; }
+                " " label { "of " select { option value="" { "all scores" } } }
+            }
+            p.says aria-live="polite" {}
+            ul {}
+        }
+    }
+}
+
+#[derive(serde::Serialize)]
+struct Case {
+    place: String,
+    variant: String,
+    metric: String,
+    margin: f64,
+    pass_at: f64,
+}
+
+/// Every case that was judged, as JSON.
+pub(super) fn cases(gate: &GateCard) -> String {
+    let judged = gate.cases.iter().filter_map(|case| Some((case, case.change.as_ref()?)));
+    let case = |(case, change): (&GateCase, &ChangeCard)| Case {
+        place: case.place(),
+        variant: case.variant.clone(),
+        metric: case.metric.clone(),
+        margin: change.margin,
+        pass_at: change.would_pass_at,
+    };
+    // Strings and numbers alone: it cannot fail.
+    serde_json::to_string(&judged.map(case).collect::<Vec<_>>()).unwrap_or_default()
 }
 
 fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {

@@ -7,10 +7,11 @@ use crate::numbers::{free_number, percent};
 use crate::words::scored;
 use maud::{Markup, html};
 
-const SECTIONS: [(&str, &str); 7] = [
+const SECTIONS: [(&str, &str); 8] = [
     ("answer", "Answer"),
     ("table", "Table"),
     ("cost", "Cost"),
+    ("viewer", "Viewer"),
     ("scenes", "Scenes"),
     ("time", "Time"),
     ("provenance", "Provenance"),
