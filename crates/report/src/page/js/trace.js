@@ -74,7 +74,7 @@ function fill(panel, cell) {
     const [x, y, width, height] = place.place;
     const frame = place.frame === null ? "" : `; frame ${place.frame} adds most`;
     paragraph(panel, `Worst in ${w.scene}, ${w.path}, at pixels ${x}, ${y} (${width} × ${height})${frame}.`);
-  } else paragraph(panel, "No worst place is stored for this score.", "muted");
+  } else if (Number(cell.dataset.value) !== 0) paragraph(panel, "No worst place is stored for this score.", "muted");
   const buttons = document.createElement("p");
   const button = (text, act) => {
     const made = document.createElement("button");
