@@ -140,7 +140,8 @@ impl<'a> Printer<'a> {
     }
 }
 
-fn data_uri(png: &[u8]) -> String {
+/// A picture inside the page.
+pub(crate) fn data_uri(png: &[u8]) -> String {
     format!("data:image/png;base64,{}", base64::encode(png))
 }
 

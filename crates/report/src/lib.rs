@@ -9,6 +9,7 @@ mod book;
 mod card;
 mod claims;
 mod error;
+mod figure;
 mod gate;
 mod numbers;
 mod page;
@@ -31,6 +32,7 @@ pub use claims::{
     EffectKind, Outcome, PlaceEffect, Verdict, publish_claims, write_claims,
 };
 pub use error::ReportError;
+pub use figure::{FigureRequest, write_figures};
 pub use gate::{
     BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, ChangeCard, GateCard, GateCase, MarginCard,
     Margins, Side, compare, gated, not_comparable, write_gate_crops,

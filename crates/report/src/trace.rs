@@ -9,11 +9,11 @@ use umbrage_metrics::{PooledNumber, SumTable, gate_table};
 /// The worst place of a score of a variant in a window.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Trace {
-    window: usize,
-    variant: usize,
-    metric: &'static str,
+    pub(crate) window: usize,
+    pub(crate) variant: usize,
+    pub(crate) metric: &'static str,
     /// Left, top, width and height in pixels of the middle frame.
-    place: [u32; 4],
+    pub(crate) place: [u32; 4],
     /// Index on the path of the frame that adds most to the motion; none for what does not move.
     frame: Option<u32>,
 }

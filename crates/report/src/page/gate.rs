@@ -2,6 +2,7 @@
 
 use crate::gate::{ChangeCard, GateCard, GateCase, short};
 use maud::{Markup, html};
+use std::collections::BTreeMap;
 use umbrage_metrics::Verdict;
 
 /// Rows that are shown of those that did not change.
@@ -19,7 +20,7 @@ pub(super) fn chip(gate: &GateCard) -> Markup {
     html! { span class=(class) { (word) " against " (gate.baseline) } }
 }
 
-pub(super) fn section(gate: &GateCard) -> Markup {
+pub(super) fn section(gate: &GateCard, crops: &BTreeMap<String, String>) -> Markup {
     use Verdict::{Improved, Inconclusive, Regressed, Unchanged};
     html! {
         section #gate {
@@ -41,7 +42,7 @@ pub(super) fn section(gate: &GateCard) -> Markup {
                 @if !cases.is_empty() {
                     details open[open] {
                         summary { (title) " (" (cases.len()) ")" }
-                        (table(gate, &cases))
+                        (table((gate, crops), &cases))
                     }
                 }
             }
@@ -87,7 +88,10 @@ pub(super) fn cases(gate: &GateCard) -> String {
     serde_json::to_string(&judged.map(case).collect::<Vec<_>>()).unwrap_or_default()
 }
 
-fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {
+fn table(
+    (gate, crops): (&GateCard, &BTreeMap<String, String>),
+    cases: &[(&GateCase, &ChangeCard)],
+) -> Markup {
     html! {
         div.wide { table.plain.gate {
             thead { tr {
@@ -101,7 +105,7 @@ fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {
                     td.num { (short(c.base)) } td.num { (short(c.now)) } td.num { (short(c.harm.value)) }
                     td.num { (short(c.harm.low)) " to " (short(c.harm.high)) }
                     td.num { (short(c.margin)) } td.num { (short(c.would_pass_at)) } td.num { (short(c.caught)) }
-                    td { (more(gate, case, c)) }
+                    td { (more((gate, crops), case, c)) }
                 } }
             }
         } }
@@ -109,11 +113,19 @@ fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {
     }
 }
 
-fn more(gate: &GateCard, case: &GateCase, change: &ChangeCard) -> Markup {
+fn more(
+    (gate, crops): (&GateCard, &BTreeMap<String, String>),
+    case: &GateCase,
+    change: &ChangeCard,
+) -> Markup {
     html! {
         @match change.verdict {
             Verdict::Regressed => details {
                 summary { "where, how" }
+                @if let Some(source) = case.crop.as_ref().and_then(|file| crops.get(file)) {
+                    @let what = format!("The worst place: truth on the left, {} on the right", case.variant);
+                    figure { img src=(source) alt=(what) loading="lazy"; figcaption { (what) "." } }
+                }
                 ul { @for line in case.details(gate) { li { (line) } } }
             },
             Verdict::Inconclusive => @if let Some(times) = change.needs_times { (format!("{times:.1} x the seeds would decide")) },

@@ -21,6 +21,7 @@ use crate::plot::{pareto, per_frame, spectrum};
 use crate::viewer::{Planes, inert};
 use crate::words::answer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::collections::BTreeMap;
 
 const STYLE: &str = include_str!("page.css");
 const VIEWER_STYLE: &str = include_str!("viewer.css");
@@ -36,6 +37,8 @@ pub(crate) struct Sources<'a> {
     pub(crate) card: &'a Scorecard,
     pub(crate) book: &'a Book,
     pub(crate) gate: Option<&'a GateCard>,
+    /// Pictures of what regressed, by their file: what an image's source says.
+    pub(crate) crops: &'a BTreeMap<String, String>,
     pub(crate) planes: &'a Planes,
     /// What the script reads, from [`crate::viewer::describe`].
     pub(crate) description: &'a str,
@@ -43,7 +46,7 @@ pub(crate) struct Sources<'a> {
 
 /// The whole page.
 pub(crate) fn page(sources: Sources) -> String {
-    let Sources { card, book, gate, planes, description } = sources;
+    let Sources { card, book, gate, crops, planes, description } = sources;
     let policy = if planes.beside.is_some() { [POLICY, BESIDE].concat() } else { POLICY.into() };
     let hatch = HATCH.map(|[r, g, b]| format!("rgb({r} {g} {b})"));
     let hatch = format!(
@@ -73,7 +76,7 @@ pub(crate) fn page(sources: Sources) -> String {
                     (viewer::section(planes))
                     (scenes::section(card, book))
                     (time(card))
-                    @if let Some(gate) = gate { (gate::section(gate)) }
+                    @if let Some(gate) = gate { (gate::section(gate, crops)) }
                     (provenance::section(card))
                     (definitions::section(card))
                 }
