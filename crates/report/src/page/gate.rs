@@ -97,7 +97,7 @@ fn table(
             thead { tr {
                 th { "where" } th { "variant" } th { "score" }
                 th.num { "baseline" } th.num { "now" } th.num { "worse by" } th.num { "95 %" }
-                th.num { "margin" } th.num { "would pass at" } th.num { "caught from" } th { "" }
+                th.num { "margin" } th.num { "would pass at" } th.num { "caught from" } td {}
             } }
             tbody {
                 @for (case, c) in cases.iter().take(MOST_QUIET) { tr {
