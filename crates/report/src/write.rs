@@ -61,7 +61,13 @@ pub fn write_report(run: &Path, layout: Layout) -> Result<Written, ReportError> 
     let pictures = read_index(run)?;
     let book = make_book(run, &card, &pictures, layout)?;
     let planes = pack(run, &card, &pictures, (layout, BESIDE))?;
-    let description = describe(&card, &book, &planes, &traces(run, &card)?);
+    // Sums that cannot be read cost the page its worst places, not its numbers.
+    let mut warnings = Vec::new();
+    let traces = traces(run, &card).unwrap_or_else(|error| {
+        warnings.push(format!("no worst places: {error}"));
+        Vec::new()
+    });
+    let description = describe(&card, &book, &planes, &traces);
     let html = page(Sources {
         card: &card,
         book: &book,
@@ -70,7 +76,6 @@ pub fn write_report(run: &Path, layout: Layout) -> Result<Written, ReportError> 
         planes: &planes,
         description: &description,
     });
-    let mut warnings = Vec::new();
     if pictures.windows.is_empty() {
         warnings.push("the run has no pictures: the page shows numbers only".to_string());
     }

@@ -61,6 +61,7 @@ fn thresholds() -> Markup {
             }
             p.says aria-live="polite" {}
             ul {}
+            p.note { "With the strictest step of the correction for many comparisons: the gate itself, which relaxes it step by step, may fail one or two more." }
         }
     }
 }
