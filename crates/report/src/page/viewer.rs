@@ -108,7 +108,7 @@ fn findings() -> Markup {
                 }
             }
             figure.point hidden {
-                figcaption { strong { "This point over the frames" } p { "Black: the truth, with twice its standard error. A calm variant is a level line." } }
+                figcaption { strong { "This point over the frames" } p { "The line in its band is the truth with twice its standard error; colours are those of the table. A calm variant is a level line." } }
                 svg.plot viewBox="0 0 620 250" role="img" {}
             }
         }
