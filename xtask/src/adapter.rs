@@ -25,7 +25,7 @@ pub(crate) fn ensure(program: &Path) -> Outcome {
         return Ok(());
     }
     eprintln!("no graphics adapter found: installing Mesa's software Vulkan ({})", PACKAGES.join(" "));
-    install()?;
+    install(&PACKAGES)?;
     if has_adapter(program)? {
         return Ok(());
     }
@@ -41,12 +41,13 @@ fn has_adapter(program: &Path) -> Result<bool, String> {
     Ok(listed.as_array().is_some_and(|a| !a.is_empty()))
 }
 
-fn install() -> Outcome {
+/// Installs Debian packages, or says how.
+pub(crate) fn install(packages: &[&str]) -> Outcome {
     let root = Command::new("id").arg("-u").output().is_ok_and(|o| o.stdout.starts_with(b"0\n"));
     let by_hand =
-        || format!("install them by hand and run this again: apt-get install {}", PACKAGES.join(" "));
+        || format!("install them by hand and run this again: apt-get install {}", packages.join(" "));
     let mut install = vec!["apt-get", "install", "-y", "--no-install-recommends"];
-    install.extend(PACKAGES);
+    install.extend(packages);
     for step in [vec!["apt-get", "update", "-q"], install] {
         let step = if root { step } else { [vec!["sudo"], step].concat() };
         run(step[0], &step[1..]).map_err(|e| format!("{e}\n{}", by_hand()))?;

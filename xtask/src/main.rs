@@ -1,7 +1,8 @@
-//! Automation: `cargo xtask evaluate | test | ci | layers | figures | bless`.
+//! Automation: `cargo xtask evaluate | test | page | ci | layers | figures | bless`.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "this is a program that talks to people")]
 
 mod adapter;
+mod browser;
 mod layers;
 mod steps;
 
@@ -12,8 +13,9 @@ const USAGE: &str = "cargo xtask COMMAND
   evaluate [ARGS]  build the program, install a software Vulkan driver if there is no adapter, and run
                    `umbrage evaluate ARGS`: renders, scores and writes a report
   test             the same driver check, then all tests
-  ci               formatting, lints, layers, duplicate versions, documentation, all tests, and the gate against the
-                   committed baseline of the quick suite
+  page             install a headless browser if there is none, and drive the report's page in it
+  ci               formatting, lints, layers, duplicate versions, documentation, all tests, the page in a browser,
+                   and the gate against the committed baseline of the quick suite
   layers           check the dependency invariants of ARCHITECTURE.md
   figures          render the pictures of README and docs/techniques.md again
   bless            renew committed goldens (the scorecard's schema and shape)";
@@ -23,6 +25,7 @@ fn main() -> ExitCode {
     let outcome = match arguments.first().map(String::as_str) {
         Some("evaluate") => steps::evaluate(&arguments[1..]),
         Some("test") => steps::test(),
+        Some("page") => steps::page(),
         Some("ci") => steps::ci(),
         Some("layers") => layers::check(),
         Some("figures") => steps::figures(),

@@ -1,6 +1,6 @@
 //! The commands, each a list of steps.
 
-use crate::{adapter, layers};
+use crate::{adapter, browser, layers};
 use std::process::Command;
 use std::sync::atomic::{AtomicU8, Ordering};
 
@@ -118,6 +118,14 @@ pub(crate) fn test() -> Outcome {
     run_in(adapter::quiet(command.args(["test", "--workspace", "--no-fail-fast"])))
 }
 
+/// The report's page in a browser: apart from `test`, which needs nothing but Rust and an adapter.
+pub(crate) fn page() -> Outcome {
+    browser::ensure()?;
+    // The packages of the workspace's own build, so that nothing is compiled twice.
+    let test = ["test", "--workspace", "--test", "page", "--", "--ignored", "--test-threads", "2"];
+    run(&cargo(), &test)
+}
+
 /// Everything that a change must pass.
 pub(crate) fn ci() -> Outcome {
     run(&cargo(), &["fmt", "--all", "--check"])?;
@@ -127,6 +135,7 @@ pub(crate) fn ci() -> Outcome {
     let mut doc = Command::new(cargo());
     run_in(doc.args(["doc", "--workspace", "--no-deps", "--quiet"]).env("RUSTDOCFLAGS", "-D warnings"))?;
     test()?;
+    page()?;
     gate()
 }
 

@@ -56,7 +56,8 @@ struct Printer<'a> {
     beside: Option<(PathBuf, &'a str)>,
 }
 
-const BESIDE: &str = "index_files";
+/// The folder beside a page.
+pub(crate) const BESIDE: &str = "index_files";
 
 /// Makes every picture of a run.
 pub(crate) fn make_book(
@@ -139,7 +140,8 @@ impl<'a> Printer<'a> {
     }
 }
 
-fn data_uri(png: &[u8]) -> String {
+/// A picture inside the page.
+pub(crate) fn data_uri(png: &[u8]) -> String {
     format!("data:image/png;base64,{}", base64::encode(png))
 }
 

@@ -9,6 +9,7 @@ mod book;
 mod card;
 mod claims;
 mod error;
+mod figure;
 mod gate;
 mod numbers;
 mod page;
@@ -16,6 +17,8 @@ mod picture;
 mod plot;
 mod store;
 mod tables;
+mod trace;
+mod viewer;
 mod words;
 mod write;
 
@@ -29,11 +32,12 @@ pub use claims::{
     EffectKind, Outcome, PlaceEffect, Verdict, publish_claims, write_claims,
 };
 pub use error::ReportError;
+pub use figure::{FigureRequest, write_figures};
 pub use gate::{
     BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, ChangeCard, GateCard, GateCase, MarginCard,
     Margins, SUMS, Side, compare, gated, not_comparable, write_gate_crops,
 };
-pub use store::{RunWriter, VariantPictures, WindowPictures};
+pub use store::{RunWriter, Surface, VariantPictures, WindowPictures};
 pub use write::{Layout, Written, write_report};
 
 // Unit tests read the same made-up run as the tests outside, which know this crate by its name.

@@ -35,6 +35,11 @@ impl Power {
         value / 10f64.powi(self.0)
     }
 
+    /// The exponent of ten.
+    pub(crate) fn exponent(self) -> i32 {
+        self.0
+    }
+
     /// For a header: "10⁻⁶", empty for 1.
     pub(crate) fn label(self) -> String {
         if self.0 == 0 { String::new() } else { format!("10{}", superscript(self.0)) }

@@ -1,12 +1,15 @@
 //! From a stored run to its pages.
 
-use crate::book::make_book;
+use crate::book::{BESIDE, data_uri, make_book};
 use crate::error::write_whole;
 use crate::gate::GateCard;
-use crate::page::page;
+use crate::page::{Sources, page};
 use crate::store::{read_index, scorecard_path};
 use crate::tables::{junit, scores_csv, summary};
+use crate::trace::traces;
+use crate::viewer::{describe, pack};
 use crate::{ReportError, Scorecard};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Where the pictures of the page go.
@@ -35,6 +38,16 @@ pub struct Written {
 /// Above this browsers and mail programs begin to complain.
 const LARGE_BYTES: usize = 10_000_000;
 
+/// Pictures of what regressed, as the page's images name them. One that is gone is left out: its numbers are there.
+fn crops_of(run: &Path, gate: Option<&GateCard>, layout: Layout) -> BTreeMap<String, String> {
+    let files = gate.iter().flat_map(|g| &g.cases).filter_map(|c| c.crop.clone());
+    let source = |file: &String| match layout {
+        Layout::Folder => Some(file.clone()),
+        Layout::SingleFile => std::fs::read(run.join(file)).ok().map(|png| data_uri(&png)),
+    };
+    files.filter_map(|file| source(&file).map(|s| (file, s))).collect()
+}
+
 /// Makes `index.html`, `scores.csv`, `summary.md` and `junit.xml` from a stored run. Can be done
 /// again at any time; existing pages are replaced.
 ///
@@ -47,8 +60,22 @@ pub fn write_report(run: &Path, layout: Layout) -> Result<Written, ReportError> 
     let gate = gate.as_ref();
     let pictures = read_index(run)?;
     let book = make_book(run, &card, &pictures, layout)?;
-    let html = page(&card, &book, gate);
+    let planes = pack(run, &card, &pictures, (layout, BESIDE))?;
+    // Sums that cannot be read cost the page its worst places, not its numbers.
     let mut warnings = Vec::new();
+    let traces = traces(run, &card).unwrap_or_else(|error| {
+        warnings.push(format!("no worst places: {error}"));
+        Vec::new()
+    });
+    let description = describe(&card, &book, &planes, &traces);
+    let html = page(Sources {
+        card: &card,
+        book: &book,
+        gate,
+        crops: &crops_of(run, gate, layout),
+        planes: &planes,
+        description: &description,
+    });
     if pictures.windows.is_empty() {
         warnings.push("the run has no pictures: the page shows numbers only".to_string());
     }

@@ -92,7 +92,8 @@ fn hostile_names_are_shown_and_not_obeyed() {
         assert!(text.contains("&lt;script&gt;alert(1)&lt;/script&gt;&amp;"), "{name}");
     }
     let html = read(folder.path(), "index.html");
-    assert!(!html.contains("\"'\""), "a quote must not end an attribute");
+    let markup = html.split("<script").next().expect("the page before its data");
+    assert!(!markup.contains("\"'\""), "a quote must not end an attribute");
 }
 
 #[test]

@@ -1,11 +1,13 @@
 //! The command line.
 
+mod figure;
 mod gate;
 mod parse;
 mod reference;
 mod score;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use figure::FigureArgs;
 pub(crate) use gate::{AcceptArgs, CompareArgs, FailOn, GateArgs, Plant};
 pub(crate) use parse::check_size;
 use parse::{parse_bias, parse_light, parse_size, parse_tolerance};
@@ -43,6 +45,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Pages from a stored run.
     Report(ReportArgs),
+    /// Crops, plots, tables and animations for a paper, from a stored run.
+    Figure(FigureArgs),
     /// What there is.
     List(ListArgs),
 }

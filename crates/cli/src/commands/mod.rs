@@ -2,6 +2,7 @@
 
 mod claims;
 mod evaluate;
+mod figure;
 mod gate;
 mod list;
 mod reference;
@@ -27,6 +28,7 @@ pub(crate) fn dispatch(arguments: &Arguments) -> Result<ExitCode, CliError> {
         Command::Reference(args) => reference::run(args),
         Command::Render(args) => render::run(args),
         Command::Report(args) => report::run(args),
+        Command::Figure(args) => figure::run(args),
         Command::List(args) => list::run(args),
     }
     .map(|()| ExitCode::SUCCESS)

@@ -46,7 +46,7 @@ impl Measured {
     /// Pictures go to disk one by one; numbers stay.
     pub(super) fn without_pictures(self) -> Self {
         let none = || Image::from_pixels(0, 0, vec![]);
-        Self { pictures: VariantPictures { mask: none(), error: none(), swim: None }, ..self }
+        Self { pictures: VariantPictures { mask: none(), error: none(), swim: None, series: vec![] }, ..self }
     }
 }
 
@@ -86,7 +86,8 @@ pub(super) fn measure(
             Some(window_tiles(&panel, truth, &window.tiling)?)
         }
     };
-    let pictures = pictures::variant(window, mask, &maps);
+    let mut pictures = pictures::variant(window, mask, &maps);
+    pictures.series = pictures::series(window, (variant, renderer), sampling.plant)?;
     Ok(Measured { numbers, pictures })
 }
 

@@ -24,7 +24,7 @@ use measure::Measured;
 use std::path::PathBuf;
 use umbrage_metrics::Bootstrap;
 use umbrage_reference::{Cache, Finder, Tracer, TruthGpu};
-use umbrage_report::{RunWriter, SUMS, Scorecard, WindowPictures};
+use umbrage_report::{RunWriter, SUMS, Scorecard};
 use umbrage_shadows::{Bias, Gpu, Renderer, VariantId};
 use window::Window;
 
@@ -221,8 +221,7 @@ impl Run<'_> {
 
     /// A window whose witnesses disagree: shown, not scored.
     fn refuse(&mut self, window: &Window) -> Result<Vec<Measured>, CliError> {
-        let pictures = WindowPictures { truth: pictures::truth(window), beauty: Some(window.beauty()) };
-        self.writer.window_pictures(self.windows_done, &pictures)?;
+        self.writer.window_pictures(self.windows_done, &pictures::window(window))?;
         self.windows_done += 1;
         self.progress.advance(self.plan.variants.len() as u64);
         Ok(Vec::new())
@@ -236,10 +235,7 @@ impl Run<'_> {
         adapter: &str,
     ) -> Result<Vec<Measured>, CliError> {
         let index = self.windows_done;
-        self.writer.window_pictures(
-            index,
-            &WindowPictures { truth: pictures::truth(window), beauty: Some(window.beauty()) },
-        )?;
+        self.writer.window_pictures(index, &pictures::window(window))?;
         let map = renderer.light_map(&window.frames[window.middle()].1);
         renderer.set_anchors(&plant::anchors(self.plan.sampling.plant, &window.anchors, &map))?;
         let mut variants = Vec::new();

@@ -33,7 +33,7 @@ pub(crate) fn key(
         hasher.update(&(part.len() as u64).to_le_bytes());
         hasher.update(part.as_bytes());
     };
-    add(concat!("umbrage unit 1 ", env!("CARGO_PKG_VERSION")));
+    add(concat!("umbrage unit 2 ", env!("CARGO_PKG_VERSION")));
     add(adapter);
     add(&window.truth_key);
     add(&variant.name());
@@ -100,8 +100,9 @@ impl Units {
             let place = layers.iter().position(|l| l.0 == name)?;
             Some(layers.swap_remove(place).1)
         };
-        let pictures =
-            VariantPictures { mask: take("visibility.V")?, error: take("error.V")?, swim: take("swim.V") };
+        let (mask, error, swim) = (take("visibility.V")?, take("error.V")?, take("swim.V"));
+        let series = (0..).map_while(|t| take(&frame_name(t))).collect();
+        let pictures = VariantPictures { mask, error, swim, series };
         Some(Measured { numbers, pictures })
     }
 
@@ -123,10 +124,11 @@ impl Units {
         std::fs::create_dir_all(folder).ok()?;
         let text = serde_json::to_vec(&unit.numbers).ok()?;
         std::fs::write(folder.join(NUMBERS), &text).ok()?;
-        let VariantPictures { mask, error, swim } = &unit.pictures;
+        let VariantPictures { mask, error, swim, series } = &unit.pictures;
         let mut layers =
             vec![("visibility.V".to_string(), mask.clone()), ("error.V".to_string(), error.clone())];
         layers.extend(swim.clone().map(|swim| ("swim.V".to_string(), swim)));
+        layers.extend(series.iter().enumerate().map(|(t, frame)| (frame_name(t), frame.clone())));
         write_exr(&folder.join(PICTURES), &layers).ok()?;
         let pictures = std::fs::read(folder.join(PICTURES)).ok()?;
         std::fs::write(folder.join(CHECKSUM), checksum(&text, &pictures)).ok()
@@ -135,6 +137,11 @@ impl Units {
     fn path(&self, key: &str) -> PathBuf {
         self.folder.join(&key[..2]).join(&key[2..])
     }
+}
+
+/// The layer of a frame of the series.
+fn frame_name(frame: usize) -> String {
+    format!("t{frame:04}.V")
 }
 
 fn checksum(numbers: &[u8], pictures: &[u8]) -> String {

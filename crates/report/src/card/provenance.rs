@@ -58,6 +58,21 @@ pub struct AdapterCard {
     pub is_cpu: bool,
 }
 
+impl AdapterCard {
+    /// The kind of device of frames that another program rendered.
+    pub const ELSEWHERE: &str = "none";
+
+    /// Whether an adapter of this machine rendered the variants.
+    pub fn rendered_here(&self) -> bool {
+        self.device_type != Self::ELSEWHERE
+    }
+
+    /// A processor that imitates a GPU.
+    pub fn is_software(&self) -> bool {
+        self.is_cpu && self.rendered_here()
+    }
+}
+
 /// How truth was made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TruthCard {

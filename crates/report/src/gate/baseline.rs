@@ -182,7 +182,7 @@ impl Baseline {
 
 impl BaselineSums {
     /// One of its tables.
-    pub(super) fn table(rows: &[Vec<f64>], window: &BaselineWindow) -> SumTable {
+    pub(crate) fn table(rows: &[Vec<f64>], window: &BaselineWindow) -> SumTable {
         let row = |([c, r], sums): (&[u32; 2], &Vec<f64>)| (*c, *r, sums.clone());
         SumTable { rows: window.clusters.iter().zip(rows).map(row).collect() }
     }

@@ -2,6 +2,7 @@
 
 use crate::gate::{ChangeCard, GateCard, GateCase, short, short_up};
 use maud::{Markup, html};
+use std::collections::BTreeMap;
 use umbrage_metrics::Verdict;
 
 /// Rows that are shown of those that did not change.
@@ -19,7 +20,7 @@ pub(super) fn chip(gate: &GateCard) -> Markup {
     html! { span class=(class) { (word) " against " (gate.baseline) } }
 }
 
-pub(super) fn section(gate: &GateCard) -> Markup {
+pub(super) fn section(gate: &GateCard, crops: &BTreeMap<String, String>) -> Markup {
     use Verdict::{Improved, Inconclusive, Regressed, Unchanged};
     html! {
         section #gate {
@@ -29,6 +30,7 @@ pub(super) fn section(gate: &GateCard) -> Markup {
                 ". Same tiles, frames and number of seeds on both sides; what may fail is corrected for the number of comparisons. "
                 "Accept this run with " code { (gate.accept) } "."
             }
+            (thresholds())
             @if !gate.new.is_empty() { p.note { "Not in the baseline: " (gate.new.join(", ")) "." } }
             @for change in &gate.margins_changed { p.note { "Margin changed: " (change) "." } }
             @for (verdict, title, open) in [
@@ -41,7 +43,7 @@ pub(super) fn section(gate: &GateCard) -> Markup {
                 @if !cases.is_empty() {
                     details open[open] {
                         summary { (title) " (" (cases.len()) ")" }
-                        (table(gate, &cases))
+                        (table((gate, crops), &cases))
                     }
                 }
             }
@@ -49,13 +51,55 @@ pub(super) fn section(gate: &GateCard) -> Markup {
     }
 }
 
-fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {
+/// Filled by the script: what would fail with wider or narrower margins.
+fn thresholds() -> Markup {
+    html! {
+        div.thresholds hidden {
+            h3 { "What if the margins were others?" }
+            p {
+                label { "Margins from 1/16 to 16 times as wide " input type="range" min="-4" max="4" step="0.25" value="0"; }
+                " " label { "of " select { option value="" { "all scores" } } }
+            }
+            p.says aria-live="polite" {}
+            ul {}
+            p.note { "With the strictest step of the correction for many comparisons: the gate itself, which relaxes it step by step, may fail one or two more." }
+        }
+    }
+}
+
+#[derive(serde::Serialize)]
+struct Case {
+    place: String,
+    variant: String,
+    metric: String,
+    margin: f64,
+    pass_at: f64,
+}
+
+/// Every case that was judged, as JSON.
+pub(super) fn cases(gate: &GateCard) -> String {
+    let judged = gate.cases.iter().filter_map(|case| Some((case, case.change.as_ref()?)));
+    let case = |(case, change): (&GateCase, &ChangeCard)| Case {
+        place: case.place(),
+        variant: case.variant.clone(),
+        metric: case.metric.clone(),
+        margin: change.margin,
+        pass_at: change.would_pass_at,
+    };
+    // Strings and numbers alone: it cannot fail.
+    serde_json::to_string(&judged.map(case).collect::<Vec<_>>()).unwrap_or_default()
+}
+
+fn table(
+    (gate, crops): (&GateCard, &BTreeMap<String, String>),
+    cases: &[(&GateCase, &ChangeCard)],
+) -> Markup {
     html! {
         div.wide { table.plain.gate {
             thead { tr {
                 th { "where" } th { "variant" } th { "score" }
                 th.num { "baseline" } th.num { "now" } th.num { "worse by" } th.num { "95 %" }
-                th.num { "margin" } th.num { "would pass at" } th.num { "caught from" } th { "" }
+                th.num { "margin" } th.num { "would pass at" } th.num { "caught from" } td {}
             } }
             tbody {
                 @for (case, c) in cases.iter().take(MOST_QUIET) { tr {
@@ -63,7 +107,7 @@ fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {
                     td.num { (short(c.base)) } td.num { (short(c.now)) } td.num { (short(c.harm.value)) }
                     td.num { (short(c.harm.low)) " to " (short(c.harm.high)) }
                     td.num { (short(c.margin)) } td.num { (short_up(c.would_pass_at)) } td.num { (short(c.caught)) }
-                    td { (more(gate, case, c)) }
+                    td { (more((gate, crops), case, c)) }
                 } }
             }
         } }
@@ -71,11 +115,19 @@ fn table(gate: &GateCard, cases: &[(&GateCase, &ChangeCard)]) -> Markup {
     }
 }
 
-fn more(gate: &GateCard, case: &GateCase, change: &ChangeCard) -> Markup {
+fn more(
+    (gate, crops): (&GateCard, &BTreeMap<String, String>),
+    case: &GateCase,
+    change: &ChangeCard,
+) -> Markup {
     html! {
         @match change.verdict {
             Verdict::Regressed => details {
                 summary { "where, how" }
+                @if let Some(source) = case.crop.as_ref().and_then(|file| crops.get(file)) {
+                    @let what = format!("The worst place: truth on the left, {} on the right", case.variant);
+                    figure { img src=(source) alt=(what) loading="lazy"; figcaption { (what) "." } }
+                }
                 ul { @for line in case.details(gate) { li { (line) } } }
             },
             Verdict::Inconclusive => @if let Some(times) = change.needs_times { (format!("{times:.1} x the seeds would decide")) },

@@ -7,10 +7,11 @@ use crate::numbers::{free_number, percent};
 use crate::words::scored;
 use maud::{Markup, html};
 
-const SECTIONS: [(&str, &str); 7] = [
+const SECTIONS: [(&str, &str); 8] = [
     ("answer", "Answer"),
     ("table", "Table"),
     ("cost", "Cost"),
+    ("viewer", "Viewer"),
     ("scenes", "Scenes"),
     ("time", "Time"),
     ("provenance", "Provenance"),
@@ -36,8 +37,10 @@ pub(super) fn head(card: &Scorecard, gate: Option<&GateCard>) -> Markup {
             }
             @if let Some(gate) = gate { p { a href="#gate" { (chip(gate)) } } }
             dl.facts {
-                (fact("Adapter", html! { (p.adapter.name) @if p.adapter.is_cpu { " (software)" } }))
-                (fact("Driver", html! { (p.adapter.backend) ", " (p.adapter.driver) }))
+                (fact("Adapter", html! { (p.adapter.name) @if p.adapter.is_software() { " (software)" } }))
+                @if p.adapter.rendered_here() {
+                    (fact("Driver", html! { (p.adapter.backend) ", " (p.adapter.driver) }))
+                }
                 (fact("Picture", html! { (p.width) " × " (p.height) " px" }))
                 (fact("Window", html! { (p.frames) @if p.frames == 1 { " frame" } @else { " frames" } ", " (p.seeds) " seeds" }))
                 (fact("Truth", html! { "2 × " (p.truth.samples_per_half) " samples a point" }))

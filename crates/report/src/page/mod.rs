@@ -9,24 +9,45 @@ mod gate;
 mod head;
 mod provenance;
 mod scenes;
+mod script;
 mod table;
+mod viewer;
 
 use crate::Scorecard;
 use crate::book::Book;
 use crate::gate::GateCard;
 use crate::picture::HATCH;
 use crate::plot::{pareto, per_frame, spectrum};
+use crate::viewer::{Planes, inert};
 use crate::words::answer;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use std::collections::BTreeMap;
 
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = include_str!("page.js");
+const VIEWER_STYLE: &str = include_str!("viewer.css");
 /// Nothing is loaded from anywhere; pictures come from the page or from the folder beside it.
 const POLICY: &str = "default-src 'none'; img-src data: file: 'self'; style-src 'unsafe-inline'; \
-                      script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'";
+                      base-uri 'none'; form-action 'none'; script-src 'unsafe-inline'";
+/// Planes beside the page are scripts: those of its own folder, and no others.
+const BESIDE: &str = " file: 'self'";
+
+/// What a page is made from.
+#[derive(Clone, Copy)]
+pub(crate) struct Sources<'a> {
+    pub(crate) card: &'a Scorecard,
+    pub(crate) book: &'a Book,
+    pub(crate) gate: Option<&'a GateCard>,
+    /// Pictures of what regressed, by their file: what an image's source says.
+    pub(crate) crops: &'a BTreeMap<String, String>,
+    pub(crate) planes: &'a Planes,
+    /// What the script reads, from [`crate::viewer::describe`].
+    pub(crate) description: &'a str,
+}
 
 /// The whole page.
-pub(crate) fn page(card: &Scorecard, book: &Book, gate: Option<&GateCard>) -> String {
+pub(crate) fn page(sources: Sources) -> String {
+    let Sources { card, book, gate, crops, planes, description } = sources;
+    let policy = if planes.beside.is_some() { [POLICY, BESIDE].concat() } else { POLICY.into() };
     let hatch = HATCH.map(|[r, g, b]| format!("rgb({r} {g} {b})"));
     let hatch = format!(
         ".hatch{{background:repeating-linear-gradient(135deg,{0} 0 3px,{1} 3px 6px)}}",
@@ -40,11 +61,11 @@ pub(crate) fn page(card: &Scorecard, book: &Book, gate: Option<&GateCard>) -> St
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta http-equiv="Content-Security-Policy" content=(policy);
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 title { (card.provenance.suite) " · Umbrage" }
-                style { (PreEscaped(STYLE)) (PreEscaped(bars)) (PreEscaped(hatch)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(VIEWER_STYLE)) (PreEscaped(bars)) (PreEscaped(hatch)) }
             }
             body {
                 (head::head(card, gate))
@@ -52,13 +73,19 @@ pub(crate) fn page(card: &Scorecard, book: &Book, gate: Option<&GateCard>) -> St
                     (answers(card))
                     (table::section(card))
                     (cost(card))
+                    (viewer::section(planes))
                     (scenes::section(card, book))
                     (time(card))
-                    @if let Some(gate) = gate { (gate::section(gate)) }
+                    @if let Some(gate) = gate { (gate::section(gate, crops)) }
                     (provenance::section(card))
                     (definitions::section(card))
                 }
-                script { (PreEscaped(SCRIPT)) }
+                dialog #trace aria-label="Where a number comes from" {}
+                (viewer::blocks(planes, description))
+                @if let Some(gate) = gate {
+                    script type="application/json" id="gate-data" { (PreEscaped(inert(&gate::cases(gate)))) }
+                }
+                script { (PreEscaped(script::script())) }
             }
         }
     }
@@ -89,7 +116,7 @@ fn cost(card: &Scorecard) -> Markup {
             } @else {
                 p.empty {
                     "No plot: " (note) ". "
-                    @if card.provenance.adapter.is_cpu {
+                    @if card.provenance.adapter.is_software() {
                         "Times on " (card.provenance.adapter.name) " say how fast this processor imitates a GPU, not "
                         "what a variant costs on one. Run the same command on a machine with a GPU to fill this in; "
                         "the scores hardly depend on it."

@@ -98,7 +98,7 @@ fn variant(card: &Scorecard, book: &Book, window: usize, v: usize) -> Markup {
     let swim = end(book.swim_limits.get(&window).copied().unwrap_or(1.0));
     let shown = |slot| book.shown(window, slot);
     html! {
-        div.variant-row {
+        div.variant-row data-window=(window) data-variant=(v) {
             h4 {
                 (swatch(Look::of(card, v))) a href={ "#variant-" (v) } { (subject.name) } " "
                 span.muted { (subject.calibration.label()) }
@@ -155,7 +155,7 @@ fn further(card: &Scorecard, window: usize) -> Markup {
                 table.further {
                     thead {
                         tr {
-                            th {}
+                            td {}
                             @for v in &card.variants { th scope="col" { (v.name) small { (v.calibration.label()) } } }
                         }
                     }

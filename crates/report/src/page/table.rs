@@ -57,7 +57,7 @@ pub(super) fn scores(scope: Comparison) -> Markup {
                 colgroup { col.name; @for _ in 1..width { col; } }
                 thead {
                     tr.groups {
-                        th {}
+                        td {}
                         @for group in &GROUPS { th colspan=(group.columns.len()) scope="colgroup" { (group.head) } }
                         @if costs { th scope="colgroup" { "Cost" } }
                     }
@@ -145,6 +145,9 @@ fn row(scope: Comparison, v: usize, shared: &[Shared]) -> Markup {
 
 fn taps(variant: &VariantCard) -> String {
     let (taps, passes) = (&variant.taps, variant.passes);
+    if variant.calibration == Calibration::Elsewhere {
+        return taps.clone();
+    }
     let (one_tap, one_pass) = (if taps == "1" { "" } else { "s" }, if passes == 1 { "" } else { "es" });
     let shape = format!("{taps} tap{one_tap} · {passes} pass{one_pass}");
     if variant.technique == variant.name { shape } else { format!("{} · {shape}", variant.technique) }
@@ -157,7 +160,7 @@ fn cell(scope: Comparison, v: usize, shared: &Shared) -> Markup {
             let (value, interval) = shown(*score, scope.card.goal(column.id), shared.power);
             let exact = format!("{} to {}", free_number(score.low), free_number(score.high));
             html! {
-                td data-value=(score.value) title={ (column.head) " " (free_number(score.value)) ", 95 %: " (exact) } {
+                td data-metric=(column.id) data-value=(score.value) title={ (column.head) " " (free_number(score.value)) ", 95 %: " (exact) } {
                     span.value { (value) }
                     @if let Some(letters) = scope.group(v, column.id) { sup { (letters) } }
                     // A line of its own: side by side, values of neighbouring columns would meet.

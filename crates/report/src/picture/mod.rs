@@ -53,6 +53,19 @@ pub(crate) fn png_of_beauty(name: &str, beauty: &Image<[f32; 3]>) -> Result<Vec<
     png::rgb(&beauty.map(|rgb| colour::display(*rgb))).map_err(|reason| picture_error(name, reason))
 }
 
+/// The colour of a visibility at a pixel; NaN is hatched.
+pub(crate) fn shade(value: f32, x: u32, y: u32) -> [u8; 3] {
+    if value.is_nan() {
+        return HATCH[usize::from((x + y) % 8 < 4)];
+    }
+    [(255.0 * value.clamp(0.0, 1.0)).round() as u8; 3]
+}
+
+/// Colours as a PNG.
+pub(crate) fn png_of_rgb(name: &str, picture: &Image<[u8; 3]>) -> Result<Vec<u8>, ReportError> {
+    png::rgb(picture).map_err(|reason| picture_error(name, reason))
+}
+
 /// A ramp from its low end (left) to its high end, for colour bars.
 pub(crate) fn png_of_bar(ramp: Ramp) -> Result<Vec<u8>, ReportError> {
     let levels = ramp.levels();

@@ -56,7 +56,10 @@ fn lines(card: &Scorecard, window: usize, moving: &[&ResultCard]) -> Markup {
     // At most about sixteen numbers under the axis.
     let every = frames.div_ceil(16);
     html! {
-        svg.plot viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } role="img" aria-label="SWIMMING per frame" {
+        // The script turns it into a scrubber: it has to know where the frames are.
+        svg.plot viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } role="img" aria-label="SWIMMING per frame"
+            data-window=(window) data-frames=(frames) data-width=(WIDTH) data-left=(LEFT) data-right=(RIGHT)
+            data-top=(TOP) data-bottom=(HEIGHT - BOTTOM) {
             @for tick in y.ticks() {
                 line.grid x1=(p(LEFT)) x2=(p(WIDTH - RIGHT)) y1=(p(at_y(tick))) y2=(p(at_y(tick))) {}
                 text.tick x=(p(LEFT - 8.0)) y=(p(at_y(tick) + 4.0)) text-anchor="end" { (Axis::tick_label(power, tick)) }

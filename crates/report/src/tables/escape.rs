@@ -1,7 +1,7 @@
 //! Names may hold anything; each format has its own way to say so.
 
 /// A field of RFC 4180: quoted when it has to be, quotes doubled.
-pub(super) fn csv(field: &str) -> String {
+pub(crate) fn csv(field: &str) -> String {
     if field.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", field.replace('"', "\"\""))
     } else {

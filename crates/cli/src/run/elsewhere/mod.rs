@@ -84,10 +84,7 @@ pub(crate) fn score(
         let mut window = Window::new(&request, (&mut finder, &cache, None), &sampling)?;
         panel::leave_out_the_undefined(&mut window, (&plan.frames, numbers))?;
         progress.advance(1);
-        writer.window_pictures(
-            index,
-            &WindowPictures { truth: pictures::truth(&window), beauty: Some(window.beauty()) },
-        )?;
+        writer.window_pictures(index, &pictures::window(&window))?;
         let mut variants = Vec::new();
         for (place, subject) in plan.frames.subjects.iter().enumerate() {
             interrupt::check(&args.cache)?;
@@ -139,7 +136,9 @@ pub(crate) fn score_without_cameras(
     let mut scored = Vec::new();
     for (index, &number) in numbers.iter().enumerate() {
         let mut window = without_cameras::window(frames, reference, number)?;
-        writer.window_pictures(index, &WindowPictures { truth: pictures::truth(&window), beauty: None })?;
+        // Pixels of a plane: there is nothing to see of a scene, and no depth.
+        let planes = WindowPictures { beauty: None, surface: None, ..pictures::window(&window) };
+        writer.window_pictures(index, &planes)?;
         let mut variants = Vec::new();
         for (place, subject) in frames.subjects.iter().enumerate() {
             let measured = panel::measure(&mut window, (frames, &[number]), subject)?;

@@ -83,7 +83,8 @@ pub(super) fn measure(
             frames.bits.unwrap_or_default()
         ));
     }
-    let pictures = pictures::variant(window, shown, &maps);
+    let mut pictures = pictures::variant(window, shown, &maps);
+    pictures.series = pictures::series_of(window, &panel);
     Ok(Measured { numbers, pictures })
 }
 

@@ -55,7 +55,7 @@ fn nobody() -> AdapterCard {
         name: "another program".into(),
         driver: String::new(),
         backend: "frames".into(),
-        device_type: "none".into(),
+        device_type: AdapterCard::ELSEWHERE.into(),
         is_cpu: true,
     }
 }
@@ -130,8 +130,7 @@ pub(super) fn relabel(card: &mut Scorecard, single: &[bool]) {
         metric.definition += " Of frames from elsewhere it is read at pixels, so that it includes edge crawl: compare it only \
                               with the same reading.";
     }
-    let noise =
-        "one take: noise cannot be told from bands and swimming; give several takes of the same frames";
+    let noise = "one take: noise is in the other cells";
     let crawl = "frames from elsewhere have one reading: their swimming includes edge crawl";
     let results = card.results.iter_mut().map(|r| (r.variant, &mut r.scores));
     let overall = card.overall.iter_mut().map(|o| (o.variant, &mut o.scores));

@@ -3,20 +3,53 @@
 //! Planes are EXR files of 32-bit floats rounded to 11 significant bits (those of a half float):
 //! the zeroed bits compress away, any EXR viewer opens them, and NaN stays NaN.
 
+mod read;
+
+pub(crate) use read::{read_index, read_series, read_truth_series, read_variant, read_window};
+
 use crate::error::{ReportError, write_whole};
 use crate::gate::{CROPS, GATE, SUMS};
 use crate::{SCHEMA_VERSION, Scorecard};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use umbrage_frame::{Image, Layer, read_exr, write_exr};
+use umbrage_frame::{Image, Layer, write_exr};
 
 /// What is shown of a window besides its variants. NaN = not counted.
 #[derive(Clone, Debug)]
 pub struct WindowPictures {
     /// The true unoccluded fraction at each anchor's pixel in the middle frame, 0 to 1.
     pub truth: Image<f32>,
+    /// The same frame by frame where the light moves; otherwise empty.
+    pub truth_series: Vec<Image<f32>>,
     /// The scene as seen, display-linear RGB, 1 = white; optional.
     pub beauty: Option<Image<[f32; 3]>>,
+    /// Where the points lie, and how sure their truth is; optional.
+    pub surface: Option<Surface>,
+}
+
+/// What the viewer says about a point besides its shadow, each at the middle frame's pixels.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Linear depth in metres; NaN where nothing is seen.
+    pub depth: Image<f32>,
+    /// [`Surface::LEFT_OUT`], [`Surface::UMBRA`], [`Surface::PENUMBRA`], [`Surface::LIT`]; NaN where nothing is seen.
+    pub region: Image<f32>,
+    /// Standard error of truth (visibility); NaN where nothing is seen.
+    pub truth_error: Image<f32>,
+    /// World to clip space of each frame of the window, columns one after the other.
+    pub cameras: Vec<[f32; 16]>,
+}
+
+impl Surface {
+    /// Seen, but not scored.
+    pub const LEFT_OUT: f32 = 0.0;
+    /// Dark.
+    pub const UMBRA: f32 = 1.0;
+    /// Between dark and lit.
+    pub const PENUMBRA: f32 = 2.0;
+    /// Lit.
+    pub const LIT: f32 = 3.0;
 }
 
 /// What is shown of a variant in a window, each in the middle frame. NaN = not counted.
@@ -28,6 +61,9 @@ pub struct VariantPictures {
     pub error: Image<f32>,
     /// Root of the moving part per anchor (visibility), from 0; none when it was not measured.
     pub swim: Option<Image<f32>>,
+    /// The variant at every point of the middle frame, frame by frame, as a game would ship it; empty
+    /// when it was not kept.
+    pub series: Vec<Image<f32>>,
 }
 
 /// Fills the folder of a run, picture by picture, so that never more than one is in memory.
@@ -44,6 +80,12 @@ pub(crate) struct PictureIndex {
     /// Windows that have a truth picture; true when there is a beauty picture too.
     pub(crate) windows: Vec<(usize, bool)>,
     pub(crate) variants: Vec<StoredVariant>,
+    /// World to clip space of the frames of a window.
+    #[serde(default)]
+    pub(crate) cameras: BTreeMap<usize, Vec<[f32; 16]>>,
+    /// Windows whose truth is stored frame by frame.
+    #[serde(default)]
+    pub(crate) truth_series: Vec<usize>,
 }
 
 /// A stored variant, with the 99.5th percentiles of |error| and swim.
@@ -53,6 +95,9 @@ pub(crate) struct StoredVariant {
     pub(crate) variant: usize,
     pub(crate) error_p995: f32,
     pub(crate) swim_p995: Option<f32>,
+    /// Frames that are stored.
+    #[serde(default)]
+    pub(crate) frames: usize,
 }
 
 const INDEX: &str = "index.json";
@@ -101,7 +146,18 @@ impl RunWriter {
             let channels = ["R", "G", "B"].into_iter().enumerate();
             layers.extend(channels.map(|(c, name)| layer(name, &beauty.map(|rgb| rgb[c]))));
         }
+        if let Some(surface) = &pictures.surface {
+            let Surface { depth, region, truth_error, cameras } = surface;
+            // Depth keeps all its bits: world positions come from it.
+            layers.push(("depth.Z".into(), depth.clone()));
+            layers.extend([layer("region.V", region), layer("deviation.V", truth_error)]);
+            self.index.cameras.insert(window, cameras.clone());
+        }
         write_exr(&truth_path(&self.folder, window), &layers)?;
+        if !pictures.truth_series.is_empty() {
+            write_exr(&truth_series_path(&self.folder, window), &series(&pictures.truth_series))?;
+            self.index.truth_series.push(window);
+        }
         self.index.windows.push((window, pictures.beauty.is_some()));
         Ok(())
     }
@@ -116,12 +172,21 @@ impl RunWriter {
         variant: usize,
         pictures: &VariantPictures,
     ) -> Result<(), ReportError> {
-        let VariantPictures { mask, error, swim } = pictures;
+        let VariantPictures { mask, error, swim, series: frames } = pictures;
         let mut layers = vec![layer("visibility.V", mask), layer("error.V", error)];
         layers.extend(swim.as_ref().map(|swim| layer("swim.V", swim)));
         write_exr(&variant_path(&self.folder, window, variant), &layers)?;
+        if !frames.is_empty() {
+            write_exr(&series_path(&self.folder, window, variant), &series(frames))?;
+        }
         let (error_p995, swim_p995) = (upper_percentile(error), swim.as_ref().map(upper_percentile));
-        self.index.variants.push(StoredVariant { window, variant, error_p995, swim_p995 });
+        self.index.variants.push(StoredVariant {
+            window,
+            variant,
+            error_p995,
+            swim_p995,
+            frames: frames.len(),
+        });
         Ok(())
     }
 
@@ -147,49 +212,6 @@ pub(crate) fn scorecard_path(folder: &Path) -> PathBuf {
     folder.join("scorecard.json")
 }
 
-/// Which pictures a run has. A run without pictures is legal: it has none.
-pub(crate) fn read_index(folder: &Path) -> Result<PictureIndex, ReportError> {
-    let path = folder.join("pictures").join(INDEX);
-    if !path.exists() {
-        return Ok(PictureIndex::default());
-    }
-    let text = std::fs::read_to_string(&path).map_err(ReportError::at(&path))?;
-    serde_json::from_str(&text).map_err(|e| ReportError::File { path, reason: e.to_string() })
-}
-
-/// Reads back what is shown of a window.
-pub(crate) fn read_window(folder: &Path, window: usize) -> Result<WindowPictures, ReportError> {
-    let path = truth_path(folder, window);
-    let mut layers = read_exr(&path)?;
-    let truth = take(&mut layers, "reference.V", &path)?;
-    let rgb = ["R", "G", "B"].map(|name| take(&mut layers, name, &path).ok());
-    let beauty = match rgb {
-        [Some(r), Some(g), Some(b)] => {
-            Some(Image::from_fn(r.width(), r.height(), |x, y| [*r.at(x, y), *g.at(x, y), *b.at(x, y)]))
-        }
-        _ => None,
-    };
-    Ok(WindowPictures { truth, beauty })
-}
-
-/// Reads back what is shown of a variant.
-pub(crate) fn read_variant(
-    folder: &Path,
-    window: usize,
-    variant: usize,
-) -> Result<VariantPictures, ReportError> {
-    let path = variant_path(folder, window, variant);
-    let mut layers = read_exr(&path)?;
-    let mut take = |name| take(&mut layers, name, &path);
-    Ok(VariantPictures { mask: take("visibility.V")?, error: take("error.V")?, swim: take("swim.V").ok() })
-}
-
-fn take(layers: &mut Vec<Layer>, name: &str, path: &Path) -> Result<Image<f32>, ReportError> {
-    let place = layers.iter().position(|l| l.0 == name);
-    let missing = || ReportError::File { path: path.into(), reason: format!("has no layer {name}") };
-    place.map(|i| layers.swap_remove(i).1).ok_or_else(missing)
-}
-
 /// Files are named by number: names of scenes may hold anything.
 fn truth_path(folder: &Path, window: usize) -> PathBuf {
     folder.join("pictures").join(format!("window-{window:02}-truth.exr"))
@@ -197,6 +219,19 @@ fn truth_path(folder: &Path, window: usize) -> PathBuf {
 
 fn variant_path(folder: &Path, window: usize, variant: usize) -> PathBuf {
     folder.join("pictures").join(format!("window-{window:02}-variant-{variant:02}.exr"))
+}
+
+fn series_path(folder: &Path, window: usize, variant: usize) -> PathBuf {
+    folder.join("pictures").join(format!("window-{window:02}-variant-{variant:02}-frames.exr"))
+}
+
+fn truth_series_path(folder: &Path, window: usize) -> PathBuf {
+    folder.join("pictures").join(format!("window-{window:02}-truth-frames.exr"))
+}
+
+/// Frames as layers, `t0000.V` first.
+fn series(frames: &[Image<f32>]) -> Vec<Layer> {
+    frames.iter().enumerate().map(|(t, frame)| layer(&format!("t{t:04}.V"), frame)).collect()
 }
 
 fn layer(name: &str, image: &Image<f32>) -> Layer {
@@ -230,10 +265,20 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut writer = RunWriter::create(folder.path()).expect("made");
         let ramp = Image::from_fn(9, 4, |x, y| if x == 0 { f32::NAN } else { x as f32 / 9.0 - y as f32 });
-        let pictures = VariantPictures { mask: ramp.clone(), error: ramp.clone(), swim: None };
+        let pictures = VariantPictures {
+            mask: ramp.clone(),
+            error: ramp.clone(),
+            swim: None,
+            series: vec![ramp.clone(), ramp.map(|v| 2.0 * v)],
+        };
         writer.variant_pictures(3, 7, &pictures).expect("written");
         let back = read_variant(folder.path(), 3, 7).expect("read");
         assert_eq!(back.swim, None);
+        let frames = read_series(folder.path(), 3, 7).expect("read");
+        assert_eq!(
+            frames.iter().map(|f| *f.at(8, 0)).collect::<Vec<_>>(),
+            [8.0 / 9.0, 16.0 / 9.0].map(rounded)
+        );
         for (a, b) in back.error.pixels().iter().zip(ramp.pixels()) {
             // Half a unit in the last of 11 bits; a lost bit would be twice that.
             assert!(a.is_nan() && b.is_nan() || (a - b).abs() <= b.abs() * 0.5f32.powi(11), "{a} {b}");

@@ -1,6 +1,5 @@
-"use strict";
 // Sorting, filtering and ratios of the tables. Without it the page is complete, in its first order.
-(() => {
+export function startTables() {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
   const number = (cell) => (cell && cell.dataset.value !== undefined ? Number(cell.dataset.value) : NaN);
 
@@ -63,6 +62,9 @@
   relative.addEventListener("change", compare);
   controls.hidden = false;
 
+  // What scrolls sideways can be scrolled by keyboard.
+  for (const wide of all(".wide, .strip-row")) wide.tabIndex = 0;
+
   // The command, to the clipboard where the browser allows it.
   const copy = document.querySelector("button.copy");
   if (navigator.clipboard) {
@@ -72,4 +74,4 @@
       copy.textContent = "Copied";
     });
   }
-})();
+}

@@ -1,0 +1,128 @@
+//! Whole pictures in a row with their insets below, as PNG; the insets' numbers as EXR.
+
+use super::Chosen;
+use crate::ReportError;
+use crate::picture::{png_of_rgb, shade};
+use crate::store::{read_variant, read_window};
+use std::path::{Path, PathBuf};
+use umbrage_frame::{Image, Layer, write_exr};
+
+/// Between pictures, in pixels of the figure.
+const GAP: u32 = 8;
+/// Around an inset and its place; told apart by colour-blind readers.
+const FRAMES: [[u8; 3]; 4] = [[230, 97, 1], [94, 60, 153], [0, 114, 178], [0, 158, 115]];
+const PAPER: [u8; 3] = [255; 3];
+
+/// A picture, its name, and the same as a name of a layer.
+pub(super) struct Panel {
+    pub(super) name: String,
+    layer: String,
+    pub(super) plane: Image<f32>,
+}
+
+/// Truth first, then each variant.
+pub(super) fn panels(chosen: &Chosen) -> Result<Vec<Panel>, ReportError> {
+    let truth = read_window(chosen.run, chosen.window)?.truth;
+    let mut all = vec![Panel { name: "truth".into(), layer: "reference.V".into(), plane: truth }];
+    for &v in &chosen.variants {
+        let of = &chosen.card.variants[v];
+        let name = format!("{} ({})", of.name, of.calibration.label());
+        let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
+        let layer = format!("{}-{}.V", of.name.chars().map(safe).collect::<String>(), of.calibration.id());
+        all.push(Panel { name, layer, plane: read_variant(chosen.run, chosen.window, v)?.mask });
+    }
+    Ok(all)
+}
+
+/// Writes `crops.png` and `crop-N.exr`; returns what they show, and the files of values.
+pub(super) fn write(
+    chosen: &Chosen,
+    (out, put): (&Path, &mut impl FnMut(&str, &[u8]) -> Result<(), ReportError>),
+) -> Result<(String, Vec<PathBuf>), ReportError> {
+    let panels = panels(chosen)?;
+    let size = (panels[0].plane.width(), panels[0].plane.height());
+    let crops: Vec<[u32; 4]> = chosen.crops.iter().filter_map(|&crop| inside(crop, size)).collect();
+    put("crops.png", &png_of_rgb("crops", &sheet(&panels, &crops, chosen.times))?)?;
+    let mut values = Vec::new();
+    for (index, &crop) in crops.iter().enumerate() {
+        let layers: Vec<Layer> = panels.iter().map(|p| (p.layer.clone(), cut(&p.plane, crop))).collect();
+        let path = out.join(format!("crop-{index}.exr"));
+        write_exr(&path, &layers)?;
+        values.push(path);
+    }
+    let names: Vec<&str> = panels.iter().map(|p| p.name.as_str()).collect();
+    let w = &chosen.card.windows[chosen.window];
+    let places: Vec<String> = crops.iter().map(|[x, y, w, h]| format!("{x},{y} of {w}x{h}")).collect();
+    let caption = format!(
+        "crops.png: {}, {}, middle frame. Left to right: {}. Insets at pixels {}; their values in crop-N.exr.\n",
+        w.scene,
+        w.path,
+        names.join("; "),
+        places.join("; ")
+    );
+    Ok((caption, values))
+}
+
+/// The part of a rectangle that is inside a picture.
+fn inside([left, top, width, height]: [u32; 4], (columns, rows): (u32, u32)) -> Option<[u32; 4]> {
+    let (right, bottom) = (left.saturating_add(width).min(columns), top.saturating_add(height).min(rows));
+    (left < right && top < bottom).then(|| [left, top, right - left, bottom - top])
+}
+
+pub(super) fn cut(plane: &Image<f32>, [left, top, width, height]: [u32; 4]) -> Image<f32> {
+    Image::from_fn(width, height, |x, y| *plane.at(left + x, top + y))
+}
+
+fn sheet(panels: &[Panel], crops: &[[u32; 4]], times: u32) -> Image<[u8; 3]> {
+    let (width, height) = (panels[0].plane.width() * times, panels[0].plane.height() * times);
+    // Insets share a panel's width.
+    let count = crops.len().max(1) as u32;
+    let inset = width.saturating_sub((count - 1) * GAP) / count;
+    let tall = crops.iter().map(|c| inset * c[3] / c[2]).max().unwrap_or(0);
+    let rows = if tall > 0 { height + GAP + tall } else { height };
+    let columns = panels.len() as u32 * (width + GAP) - GAP;
+    let mut sheet = Image::filled(columns, rows, PAPER);
+    for (index, panel) in panels.iter().enumerate() {
+        let left = index as u32 * (width + GAP);
+        let whole = [0, 0, panel.plane.width(), panel.plane.height()];
+        draw(&mut sheet, &panel.plane, whole, [left, 0, width, height]);
+        for (i, &crop) in crops.iter().enumerate() {
+            let colour = FRAMES[i % FRAMES.len()];
+            frame(
+                &mut sheet,
+                [left + crop[0] * times, crop[1] * times, crop[2] * times, crop[3] * times],
+                colour,
+            );
+            let place = [left + i as u32 * (inset + GAP), height + GAP, inset, inset * crop[3] / crop[2]];
+            draw(&mut sheet, &panel.plane, crop, place);
+            frame(&mut sheet, place, colour);
+        }
+    }
+    sheet
+}
+
+/// Draws a part of a plane into a rectangle, by nearest pixels.
+fn draw(sheet: &mut Image<[u8; 3]>, plane: &Image<f32>, from: [u32; 4], to: [u32; 4]) {
+    for y in 0..to[3] {
+        for x in 0..to[2] {
+            let (column, row) = (from[0] + x * from[2] / to[2], from[1] + y * from[3] / to[3]);
+            set(sheet, to[0] + x, to[1] + y, shade(*plane.at(column, row), column, row));
+        }
+    }
+}
+
+/// Two pixels along the edge of a rectangle.
+fn frame(sheet: &mut Image<[u8; 3]>, [left, top, width, height]: [u32; 4], colour: [u8; 3]) {
+    for y in 0..height {
+        for x in 0..width {
+            if x < 2 || y < 2 || x + 2 >= width || y + 2 >= height {
+                set(sheet, left + x, top + y, colour);
+            }
+        }
+    }
+}
+
+fn set(sheet: &mut Image<[u8; 3]>, x: u32, y: u32, colour: [u8; 3]) {
+    let at = (y * sheet.width() + x) as usize;
+    sheet.pixels_mut()[at] = colour;
+}

@@ -1,0 +1,64 @@
+//! Figures of a stored run.
+
+mod fixture;
+
+use fixture::Device;
+use umbrage_frame::read_exr;
+use umbrage_report::{FigureRequest, write_figures};
+
+fn request() -> FigureRequest {
+    let crops = vec![[10, 12, 16, 8]];
+    FigureRequest {
+        scene: None,
+        path: None,
+        variants: vec!["chss".into(), "hard/as-printed".into()],
+        crops,
+        times: 2,
+    }
+}
+
+#[test]
+fn a_run_becomes_crops_plots_tables_and_animations() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fixture::write(folder.path(), Device::Gpu, (64, 36)).expect("stored");
+    let out = folder.path().join("figures");
+    let written = write_figures(folder.path(), &request(), &out).expect("figures");
+    let names: Vec<_> = written.iter().filter_map(|p| p.file_name()?.to_str()).collect();
+    for name in
+        ["crops.png", "crop-0.exr", "cost.svg", "swimming.svg", "scores.tex", "scores.csv", "path-follow.png"]
+    {
+        assert!(names.contains(&name) && out.join(name).is_file(), "{name} in {names:?}");
+    }
+    let inset = read_exr(&out.join("crop-0.exr")).expect("an EXR file");
+    let whole = read_exr(&folder.path().join("pictures/window-00-variant-04.exr")).expect("stored");
+    let layer = |layers: &[umbrage_frame::Layer], name: &str| {
+        layers.iter().find(|l| l.0 == name).expect("there").1.clone()
+    };
+    let (inset, whole) = (layer(&inset, "chss-light-matched.V"), layer(&whole, "visibility.V"));
+    assert_eq!((inset.width(), inset.height()), (16, 8));
+    assert_eq!(inset.at(3, 2), whole.at(13, 14));
+    let sheet = image::open(out.join("crops.png")).expect("a picture");
+    // Three panels of 64x36 twice as large, 8 px between them; insets of 16x8 in a panel's width below.
+    assert_eq!((sheet.width(), sheet.height()), (3 * 128 + 2 * 8, 72 + 8 + 64));
+    let animated = std::fs::read(out.join("path-follow.png")).expect("written");
+    let control = animated.windows(4).position(|w| w == b"acTL").expect("an animation") + 4;
+    assert_eq!(animated[control..control + 4], 16u32.to_be_bytes(), "frames; as printed ones have them too");
+    let tex = std::fs::read_to_string(out.join("scores.tex")).expect("written");
+    assert!(tex.contains("\nchss & ") && tex.contains("\nhard (as printed) & "), "{tex}");
+    let svg = std::fs::read_to_string(out.join("swimming.svg")).expect("written");
+    assert!(svg.starts_with("<svg xmlns=") && svg.trim_end().ends_with("</svg>"));
+}
+
+#[test]
+fn what_a_run_does_not_have_is_said() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fixture::write(folder.path(), Device::Software, (64, 36)).expect("stored");
+    let out = folder.path().join("figures");
+    let none = FigureRequest { variants: vec!["nothing".into()], ..request() };
+    let message = write_figures(folder.path(), &none, &out).expect_err("no such variant").to_string();
+    assert!(message.contains("no pictures of \"nothing\""), "{message}");
+    let still = FigureRequest { scene: Some("d1-edge-ladder".into()), ..request() };
+    write_figures(folder.path(), &still, &out).expect("a still has figures too");
+    let captions = std::fs::read_to_string(out.join("captions.txt")).expect("written");
+    assert!(captions.contains("No frames are stored"), "{captions}");
+}
