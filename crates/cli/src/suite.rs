@@ -2,6 +2,7 @@
 
 use crate::args::{EvaluateArgs, Plant, check_size};
 use crate::error::CliError;
+use crate::own;
 use crate::scenes::find_scene;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -101,7 +102,9 @@ impl Plan {
         let own = file.size.map(|[w, h]| check_size((w, h))).transpose();
         let own = own.map_err(|e| CliError::Usage(format!("the size of suite \"{}\": {e}", file.name)))?;
         let size = args.view.size.or(own.filter(|_| !quick));
-        let variants = able(chosen_variants(args, &file)?, &jobs, wants_all(&args.variants))?;
+        let mut variants = able(chosen_variants(args, &file)?, &jobs, wants_all(&args.variants))?;
+        // The user's own are named, whatever else is wanted: they are beside it.
+        variants.extend(able(own::techniques(&args.own)?, &jobs, false)?);
         let variants =
             if frames == 1 { without_history(variants, wants_all(&args.variants))? } else { variants };
         Ok(Self {

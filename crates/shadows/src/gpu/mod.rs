@@ -10,6 +10,7 @@ pub use execute::Timing;
 use crate::ShadowError;
 use crate::layout::{Anchor, Vertex};
 use pipelines::Pipelines;
+use std::time::Duration;
 use textures::Textures;
 use umbrage_device::{AdapterChoice, AdapterDescription, Device, DeviceError};
 
@@ -41,6 +42,11 @@ impl Gpu {
     /// Which adapter this is.
     pub fn description(&self) -> &AdapterDescription {
         self.device.description()
+    }
+
+    /// How long a frame may take; five minutes otherwise.
+    pub fn set_patience(&mut self, patience: Duration) {
+        self.device.set_patience(patience);
     }
 
     /// Largest side of a texture.
