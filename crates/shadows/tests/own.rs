@@ -119,3 +119,24 @@ fn constants_take_the_type_of_their_place() {
     let checked = Own::read("mine.wgsl", text.into()).expect("a header").into_variant();
     checked.map(|_| ()).unwrap_or_else(|e| panic!("{e}"));
 }
+
+/// Lines end in two bytes on some systems: places are counted in the file as it is.
+#[test]
+fn places_are_the_files_own_with_either_line_ending() {
+    let text = "// mine\n\n//! name = \"mine\"\n//! # \u{e9}\u{e9}\n//! taps = 3\n";
+    for text in [text.to_string(), text.replace('\n', "\r\n")] {
+        let refused = Own::read("mine.wgsl", text).map(|_| ()).expect_err("no such key").to_string();
+        assert!(refused.starts_with("mine.wgsl:5:5: unknown field `taps`"), "{refused}");
+    }
+}
+
+#[test]
+fn every_file_on_the_page_is_valid() {
+    let page = page();
+    let files: Vec<&str> = page.split("```wgsl\n").skip(1).filter_map(|b| b.split("```").next()).collect();
+    assert!(files.len() >= 2, "{files:?}");
+    for file in files {
+        let checked = Own::read("mine.wgsl", file.into()).and_then(Own::into_variant);
+        checked.map(|_| ()).unwrap_or_else(|e| panic!("{file}\n{e}"));
+    }
+}

@@ -13,7 +13,7 @@ pub(crate) struct TechniqueArgs {
     /// repeating).
     #[arg(long = "set", value_name = "NAME.CONSTANT=VALUE", requires = "techniques")]
     pub(crate) sets: Vec<String>,
-    /// Longest that a frame may take, in seconds; more is an error.
-    #[arg(long, value_name = "SECS", default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..))]
+    /// Longest that the driver may take for a frame, in seconds; more is an error.
+    #[arg(long, value_name = "SECS", default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     pub(crate) patience: u64,
 }

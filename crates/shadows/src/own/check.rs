@@ -128,7 +128,9 @@ impl<'a> Checked<'a> {
     /// Place in the header of the constant whose line a position of the module is in.
     fn constant_at(&self, source: &str, position: usize) -> Option<(usize, usize)> {
         let [_, constants] = self.own.fragments();
-        let start = source.find(constants.source.as_ref()).filter(|_| !constants.source.is_empty())?;
+        // Behind the file, which may hold the same words.
+        let file = self.own.text.len();
+        let start = file + source.get(file..)?.find(constants.source.as_ref())?;
         let line = source.get(start..position)?.matches('\n').count();
         self.own.header.constants.get(line).map(|c| c.place)
     }

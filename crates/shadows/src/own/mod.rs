@@ -7,6 +7,7 @@
 mod check;
 mod endless;
 mod header;
+mod number;
 mod verdict;
 
 pub(crate) use verdict::judged;
