@@ -20,6 +20,13 @@ pub(crate) fn techniques(args: &TechniqueArgs) -> Result<Vec<VariantId>, CliErro
     Ok(all.into_iter().map(Own::into_variant).collect::<Result<_, _>>()?)
 }
 
+/// The names of variants that are none of the user's own: those are there whether they are named or not, and
+/// commands that a report offers to copy name them.
+pub(crate) fn others(names: &[String], own: &[VariantId]) -> Vec<String> {
+    let is_own = |name: &String| own.iter().any(|id| id.variant.name == *name || id.name() == *name);
+    names.iter().filter(|name| !is_own(name)).cloned().collect()
+}
+
 fn read(path: &Path) -> Result<Own, CliError> {
     let text = std::fs::read_to_string(path).map_err(CliError::file(path))?;
     Ok(Own::read(&path.display().to_string(), text)?)

@@ -124,7 +124,7 @@ fn constants_take_the_type_of_their_place() {
 #[test]
 fn places_are_the_files_own_with_either_line_ending() {
     let text = "// mine\n\n//! name = \"mine\"\n//! # \u{e9}\u{e9}\n//! taps = 3\n";
-    for text in [text.to_string(), text.replace('\n', "\r\n")] {
+    for text in [text.to_string(), text.replace('\n', "\r\n"), format!("\u{feff}{text}")] {
         let refused = Own::read("mine.wgsl", text).map(|_| ()).expect_err("no such key").to_string();
         assert!(refused.starts_with("mine.wgsl:5:5: unknown field `taps`"), "{refused}");
     }

@@ -91,6 +91,16 @@ fn constants_are_settings_and_part_of_what_is_cached() {
     assert_eq!(error("").1, plain);
 }
 
+/// As the gate's commands to copy name it.
+#[test]
+fn a_technique_may_be_named_as_a_variant() {
+    let folder = folder_with(HARD);
+    for name in ["mine", "mine/light-matched"] {
+        evaluate(folder.path(), &format!("--variant {name}")).ended_with(0);
+        assert_eq!(Card::load(&folder.path().join("run")).variants(), ["mine/light-matched"]);
+    }
+}
+
 #[test]
 fn settings_that_do_not_fit_are_usage() {
     let folder = folder_with(HARD);

@@ -14,8 +14,9 @@ use umbrage_shadows::{Calibration, Dump, LightMap, ReceiverPlane, Renderer, Seed
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let (scene, _) = find_scene(&args.scene)?;
-    let mut variants = variants_of(&args.variants)?;
-    variants.extend(own::techniques(&args.own)?);
+    let own = own::techniques(&args.own)?;
+    let mut variants = variants_of(&own::others(&args.variants, &own))?;
+    variants.extend(own);
     let path = path_of(&scene, &args.view.paths)?;
     let size = args.view.size.unwrap_or((1280, 720));
     let mut gpu = open_gpu(&args.view.gpu)?;

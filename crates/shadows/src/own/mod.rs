@@ -47,6 +47,8 @@ impl Own {
     /// # Errors
     /// A header that is missing, wrong, or names a technique that there is already.
     pub fn read(file: &str, text: String) -> Result<Self, ShadowError> {
+        // Some editors put a mark before the text.
+        let text = text.strip_prefix('\u{feff}').map_or_else(|| text.clone(), str::to_string);
         let header = Header::read(file, &text)?;
         if VARIANTS.iter().chain(PROBES).any(|v| v.name == header.name) || header.name == "all" {
             let message = format!("\"{}\" is the name of a built-in variant: choose another", header.name);
