@@ -53,7 +53,9 @@ impl CliError {
             | Self::Reference(ReferenceError::Device(DeviceError::UnknownBackend { .. }))
             | Self::Scene(SceneError::UnknownName { .. })
             | Self::Shadow(
-                ShadowError::Device(DeviceError::UnknownBackend { .. }) | ShadowError::WrongLight { .. },
+                ShadowError::Device(DeviceError::UnknownBackend { .. })
+                | ShadowError::WrongLight { .. }
+                | ShadowError::Setting { .. },
             ) => 2,
             Self::Regressed(_) => 1,
             Self::NothingScored(_) | Self::Projection(_) | Self::Report(ReportError::NotComparable(_)) => 3,

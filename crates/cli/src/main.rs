@@ -11,6 +11,7 @@ mod commands;
 mod error;
 mod interrupt;
 mod output;
+mod own;
 mod progress;
 mod run;
 mod scenes;

@@ -2,6 +2,7 @@
 
 use crate::args::{EvaluateArgs, Plant, check_size};
 use crate::error::CliError;
+use crate::own;
 use crate::scenes::{family_of, find_lit_scene};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -104,7 +105,10 @@ impl Plan {
         let own = file.size.map(|[w, h]| check_size((w, h))).transpose();
         let own = own.map_err(|e| CliError::Usage(format!("the size of suite \"{}\": {e}", file.name)))?;
         let size = args.view.size.or(own.filter(|_| !quick));
-        let variants = able(chosen_variants(args, &file)?, &jobs, wants_all(&args.variants))?;
+        let own = own::techniques(&args.own)?;
+        let mut variants = able(chosen_variants(args, &file, &own)?, &jobs, wants_all(&args.variants))?;
+        // The user's own are named, whatever else is wanted: they are beside it.
+        variants.extend(able(own, &jobs, false)?);
         let variants =
             if frames == 1 { without_history(variants, wants_all(&args.variants))? } else { variants };
         Ok(Self {
@@ -128,11 +132,15 @@ impl Plan {
 }
 
 /// Those of `--variant`, of the suite, or of the standard suite.
-fn chosen_variants(args: &EvaluateArgs, file: &SuiteFile) -> Result<Vec<VariantId>, CliError> {
+fn chosen_variants(
+    args: &EvaluateArgs,
+    file: &SuiteFile,
+    own: &[VariantId],
+) -> Result<Vec<VariantId>, CliError> {
     match (args.variants.as_slice(), file.variants.as_slice()) {
         ([], []) => variants_of(&parse(STANDARD, Path::new("scenes/standard.toml"))?.variants),
-        ([], own) => variants_of(own),
-        (wanted, _) => variants_of(wanted),
+        ([], listed) => variants_of(listed),
+        (wanted, _) => variants_of(&own::others(wanted, own)),
     }
 }
 

@@ -15,6 +15,7 @@ pub struct Device {
     /// Takes work.
     pub queue: wgpu::Queue,
     description: AdapterDescription,
+    patience: Duration,
     /// What validation or the driver said outside of any call's result.
     complaints: Arc<Mutex<Vec<String>>>,
 }
@@ -42,12 +43,17 @@ impl Device {
                 list.push(error.to_string());
             }
         }));
-        Ok(Self { device, queue, description, complaints })
+        Ok(Self { device, queue, description, patience: PATIENCE, complaints })
     }
 
     /// Which adapter this is.
     pub fn description(&self) -> &AdapterDescription {
         &self.description
+    }
+
+    /// How long [`Device::wait`] waits; five minutes otherwise.
+    pub fn set_patience(&mut self, patience: Duration) {
+        self.patience = patience;
     }
 
     /// A set of timestamps, where the adapter has them.
@@ -158,10 +164,14 @@ impl Device {
     /// What the driver refused, or did not finish.
     pub fn wait(&self) -> Result<(), DeviceError> {
         let waited =
-            self.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) });
+            self.device.poll(wgpu::PollType::Wait { submission_index: None, timeout: Some(self.patience) });
         match waited {
             Ok(_) => self.check(),
-            Err(wgpu::PollError::Timeout) => Err(DeviceError::Timeout { secs: PATIENCE.as_secs() }),
+            Err(wgpu::PollError::Timeout) => {
+                // A queue that is dropped waits for its work, which may never end: neither is dropped.
+                std::mem::forget((self.device.clone(), self.queue.clone()));
+                Err(DeviceError::Timeout { secs: self.patience.as_secs() })
+            }
             Err(e) => Err(DeviceError::Refused(e.to_string())),
         }
     }

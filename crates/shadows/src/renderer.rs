@@ -3,7 +3,7 @@
 use crate::layout::Anchor;
 use crate::triangles::Triangles;
 use crate::{Bias, Gpu, Info, Inputs, Kernels, LightMap, Recording, Seeding, ShadowError, Timing, VariantId};
-use crate::{Projection, Receivers, VARIANTS, stages};
+use crate::{Projection, Receivers, VARIANTS, own, stages};
 use glam::Vec3;
 use umbrage_frame::{Anchors, Gbuffer, Image, View};
 use umbrage_scene::{AreaLight, Scene};
@@ -135,7 +135,7 @@ impl<'a> Renderer<'a> {
     ) -> Result<Shaded, ShadowError> {
         let job = Job { variant, view, receivers: Receivers::Frame, seeding, pattern };
         let recording = self.record(&job, light)?;
-        self.gpu.run(&recording)
+        own::judged(variant, self.gpu.run(&recording))
     }
 
     /// GPU times of a variant's frame, without its values; empty without timestamp queries.
@@ -165,7 +165,7 @@ impl<'a> Renderer<'a> {
     ) -> Result<Shaded, ShadowError> {
         let receivers = Receivers::Anchors { count: self.gpu.anchors() };
         let recording = self.record(&Job { variant, view, receivers, seeding, pattern }, light)?;
-        self.gpu.run(&recording)
+        own::judged(variant, self.gpu.run(&recording))
     }
 
     /// A variant's passes over the pixels of a view, as data: what a result depends on.
@@ -194,7 +194,7 @@ impl<'a> Renderer<'a> {
     ) -> Result<(Shaded, Vec<Dump>), ShadowError> {
         let job = Job { variant, view, receivers: Receivers::Frame, seeding, pattern };
         let recording = self.record(&job, light)?;
-        let shaded = self.gpu.run(&recording)?;
+        let shaded = own::judged(variant, self.gpu.run(&recording))?;
         let dumps = self.gpu.read_textures(&recording)?;
         Ok((shaded, dumps))
     }

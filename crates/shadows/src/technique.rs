@@ -23,6 +23,14 @@ pub trait Technique: Sync {
     fn history(&self) -> usize {
         0
     }
+    /// The user's file that it was read from.
+    fn own_file(&self) -> Option<&str> {
+        None
+    }
+    /// Numbers and slots that its user chose, by name, for scorecards.
+    fn settings(&self) -> Vec<(String, String)> {
+        Vec::new()
+    }
     /// Writes the passes of one frame; the last one fills the recording's values.
     fn record(&self, recording: &mut Recording, inputs: &Inputs<'_>);
 }

@@ -12,3 +12,4 @@ mod outputs;
 mod recompute;
 mod robustness;
 mod score;
+mod technique;

@@ -5,6 +5,7 @@ mod gate;
 mod parse;
 mod reference;
 mod score;
+mod technique;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use figure::FigureArgs;
@@ -14,6 +15,7 @@ use parse::{parse_bias, parse_light, parse_size, parse_tolerance};
 pub(crate) use reference::{MethodArg, ReferenceArgs};
 pub(crate) use score::{ScoreArgs, TransferArg};
 use std::path::PathBuf;
+pub(crate) use technique::TechniqueArgs;
 use umbrage_shadows::Bias;
 
 /// Scores real-time soft shadows against path-traced truth: error, banding, noise and swimming.
@@ -113,6 +115,8 @@ pub(crate) struct EvaluateArgs {
     /// otherwise.
     #[arg(long = "variant", value_name = "NAME")]
     pub(crate) variants: Vec<String>,
+    #[command(flatten)]
+    pub(crate) own: TechniqueArgs,
     /// Frames of each path; windows of 16 (fewer: one window; 1: temporal cells are not measured).
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) frames: Option<u32>,
@@ -228,8 +232,10 @@ pub(crate) struct RenderArgs {
     /// A scene name, folder or model file.
     pub(crate) scene: PathBuf,
     /// Variant: `chss` or `chss/as-printed` (several by repeating).
-    #[arg(long = "variant", value_name = "NAME", required = true)]
+    #[arg(long = "variant", value_name = "NAME", required_unless_present = "techniques")]
     pub(crate) variants: Vec<String>,
+    #[command(flatten)]
+    pub(crate) own: TechniqueArgs,
     /// First frame of the path.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) frame: u32,
@@ -260,6 +266,8 @@ pub(crate) struct ListArgs {
     /// Of what.
     #[arg(value_enum)]
     pub(crate) what: Listed,
+    #[command(flatten)]
+    pub(crate) own: TechniqueArgs,
     /// As JSON.
     #[arg(long)]
     pub(crate) json: bool,

@@ -10,6 +10,7 @@ use crate::run::{Settings, evaluate};
 use crate::shell;
 use crate::suite::Plan;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use umbrage_report::{Layout, write_report};
 use umbrage_shadows::Gpu;
 
@@ -20,6 +21,7 @@ pub(crate) fn run(args: &EvaluateArgs) -> Result<(), CliError> {
     let now = clock::now();
     let out = args.out.clone().unwrap_or_else(|| run_folder(&plan.name, &now.folder));
     let mut gpu = open_gpu(&args.view.gpu)?;
+    gpu.set_patience(Duration::from_secs(args.own.patience));
     missing_baseline(args, &gpu)?;
     eprintln!("adapter: {} ({})", gpu.description().name, gpu.description().device_type);
     let truth_gpu = open_truth_gpu(args.truth.reference_on, &args.view.gpu)?;

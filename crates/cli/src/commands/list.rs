@@ -3,6 +3,7 @@
 use crate::args::{ListArgs, Listed};
 use crate::error::CliError;
 use crate::output::print;
+use crate::own;
 use serde_json::{Value, json};
 use umbrage_metrics::METRICS;
 use umbrage_scene::{Scene, builtin_names};
@@ -18,7 +19,7 @@ pub(crate) fn run(args: &ListArgs) -> Result<(), CliError> {
     let table = match args.what {
         Listed::Scenes => scenes()?,
         Listed::Paths => paths()?,
-        Listed::Variants => variants()?,
+        Listed::Variants => variants(args)?,
         Listed::Metrics => metrics(),
         Listed::Adapters => adapter_table(),
     };
@@ -56,26 +57,30 @@ fn paths() -> Result<Table, CliError> {
     Ok(Table { columns: &["scene", "path", "frames", "title"], rows })
 }
 
-fn variants() -> Result<Table, CliError> {
+fn variants(args: &ListArgs) -> Result<Table, CliError> {
     let scene = Scene::builtin("colonnade")?;
-    let row = |variant: &'static umbrage_shadows::Variant| {
+    let both = Calibration::ALL.map(Calibration::name).join(" ");
+    let built_in = VARIANTS.iter().map(|variant| {
         let id = VariantId { variant, calibration: Calibration::LightMatched };
-        let (info, technique) = (id.info(), variant.technique);
-        let both = Calibration::ALL.map(Calibration::name).join(" ");
+        (id, both.clone())
+    });
+    let own = own::techniques(&args.own)?.into_iter().map(|id| (id, id.calibration.name().to_string()));
+    let row = |(id, calibrations): (VariantId, String)| {
+        let (info, variant) = (id.info(), id.variant);
         let passes = id.passes(&scene).join(" > ");
         vec![
             variant.name.to_string(),
-            both,
+            calibrations,
             info.document.to_string(),
             info.options,
             info.taps,
             passes,
-            technique.lights().describe().to_string(),
+            variant.technique.lights().describe().to_string(),
             info.title.to_string(),
         ]
     };
     let columns = &["variant", "calibrations", "document", "options", "taps", "passes", "lights", "title"];
-    Ok(Table { columns, rows: VARIANTS.iter().map(row).collect() })
+    Ok(Table { columns, rows: built_in.chain(own).map(row).collect() })
 }
 
 fn metrics() -> Table {

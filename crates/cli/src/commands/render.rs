@@ -4,18 +4,23 @@ use super::open_gpu;
 use crate::args::RenderArgs;
 use crate::error::CliError;
 use crate::output::print;
+use crate::own;
 use crate::scenes::{find_lit_scene, only_light};
 use crate::suite::variants_of;
 use crate::views::{frame_of, past_of, path_of, view_of};
+use std::time::Duration;
 use umbrage_frame::{Image, Layer, write_exr};
 use umbrage_shadows::{Calibration, Dump, LightMap, ReceiverPlane, Renderer, Seeding};
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let (scene, _) = find_lit_scene(&args.scene, only_light(&args.view.lights)?)?;
-    let variants = variants_of(&args.variants)?;
+    let own = own::techniques(&args.own)?;
+    let mut variants = variants_of(&own::others(&args.variants, &own))?;
+    variants.extend(own);
     let path = path_of(&scene, &args.view.paths)?;
     let size = args.view.size.unwrap_or((1280, 720));
     let mut gpu = open_gpu(&args.view.gpu)?;
+    gpu.set_patience(Duration::from_secs(args.own.patience));
     let mut renderer = Renderer::new(&mut gpu, &scene, args.view.map)?;
     std::fs::create_dir_all(&args.out).map_err(CliError::file(&args.out))?;
     for number in args.frame..args.frame.saturating_add(args.frames) {

@@ -123,6 +123,8 @@ fn variant_card(id: VariantId, plan: &Plan) -> VariantCard {
     let bias = id.calibration.default_bias();
     let kernels = id.kernels();
     let passes = id.passes(&plan.jobs[0].scene);
+    let mut more = BTreeMap::from([("kernel".into(), kernels.kernel), ("passes".into(), passes.join(", "))]);
+    more.extend(id.variant.technique.settings());
     VariantCard {
         name: id.variant.name.into(),
         technique: id.variant.name.into(),
@@ -146,7 +148,7 @@ fn variant_card(id: VariantId, plan: &Plan) -> VariantCard {
             kernel_cap: kernels.cap,
             radius_convention: kernels.radius_convention,
             outside_the_map: "lit".into(),
-            more: BTreeMap::from([("kernel".into(), kernels.kernel), ("passes".into(), passes.join(", "))]),
+            more,
         },
         source: info.document.into(),
         sentence: info.title.into(),

@@ -11,6 +11,7 @@ use crate::ShadowError;
 use crate::layout::Anchor;
 use crate::triangles::Triangles;
 use pipelines::Pipelines;
+use std::time::Duration;
 use textures::Textures;
 use umbrage_device::{AdapterChoice, AdapterDescription, Device, DeviceError};
 
@@ -49,6 +50,11 @@ impl Gpu {
     /// Which adapter this is.
     pub fn description(&self) -> &AdapterDescription {
         self.device.description()
+    }
+
+    /// How long a frame may take; five minutes otherwise.
+    pub fn set_patience(&mut self, patience: Duration) {
+        self.device.set_patience(patience);
     }
 
     /// Largest side of a texture.

@@ -26,7 +26,7 @@ pub(crate) use peel::deeper_layers;
 pub(crate) use penumbra_mask::{PenumbraMask, penumbra_mask};
 pub(crate) use pyramid::{Reduction, pyramid};
 pub(crate) use resolve::{Resolve, resolve};
-pub(crate) use shade::{Shade, seeded, shade};
+pub(crate) use shade::{Shade, seeded, seeds, shade};
 pub(crate) use shadow_map::{shadow_map, shadow_map_cleared};
 pub(crate) use surface_blur::{Likeness, SurfaceBlur, surface_blur};
 pub(crate) use target::{Grid, shade_target};

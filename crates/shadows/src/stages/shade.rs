@@ -83,10 +83,15 @@ pub(crate) fn seeded(pattern: Fragment, seeding: Seeding) -> Vec<Fragment> {
     if pattern == shader::PATTERN_NONE {
         return vec![pattern];
     }
+    [vec![pattern], seeds(seeding)].concat()
+}
+
+/// What a pattern draws its offsets from.
+pub(crate) fn seeds(seeding: Seeding) -> Vec<Fragment> {
     let seed = match seeding {
         Seeding::Fresh => shader::SEED_FRESH,
         Seeding::Frozen => shader::SEED_FROZEN,
         Seeding::Animated => shader::SEED_ANIMATED,
     };
-    vec![pattern, seed, shader::HASH]
+    vec![seed, shader::HASH]
 }
