@@ -15,7 +15,7 @@ const USAGE: &str = "cargo xtask COMMAND
   test             the same driver check, then all tests
   page             install a headless browser if there is none, and drive the report's page in it
   ci               formatting, lints, layers, duplicate versions, documentation, all tests, the page in a browser,
-                   and the gate against the committed baseline of the quick suite
+                   and the gate against the committed baseline of the standard suite
   layers           check the dependency invariants of ARCHITECTURE.md
   figures          render the pictures of README and docs/techniques.md again
   bless            renew committed goldens (the scorecard's schema and shape)";

@@ -139,10 +139,11 @@ pub(crate) fn ci() -> Outcome {
     gate()
 }
 
-/// The committed baseline of the quick suite: `umbrage evaluate --quick --save-baseline quick` renews it.
+/// The committed baseline of the standard suite: `umbrage evaluate --reference-on cpu --save-baseline standard`
+/// renews it.
 fn gate() -> Outcome {
     let mut command = Command::new(adapter::program("debug")?);
-    let arguments = ["evaluate", "--quick", "--baseline", "quick", "--reference-on", "cpu"];
+    let arguments = ["evaluate", "--baseline", "standard", "--reference-on", "cpu"];
     let places = ["--cache", "target/gate/cache", "--out", "target/gate/run"];
     run_in(adapter::quiet(command.args(arguments).args(places)))
 }

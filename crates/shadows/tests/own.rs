@@ -35,6 +35,7 @@ fn modules(variant: VariantId) -> Vec<String> {
                 receivers,
                 seeding: Seeding::Fresh,
                 geometry_key: 0,
+                has_cutouts: false,
                 past: &[],
                 age: 0,
             };

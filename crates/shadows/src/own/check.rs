@@ -206,6 +206,7 @@ fn last_pass(own: &Own, kind: LightKind, receivers: Receivers) -> ComputePass {
         receivers,
         seeding: Seeding::Fresh,
         geometry_key: 0,
+        has_cutouts: false,
         past: &[],
         age: 0,
     };
