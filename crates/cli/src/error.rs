@@ -76,7 +76,7 @@ impl CliError {
                 Some("`umbrage list scenes` shows the standard ones; a file or folder works too".into())
             }
             Self::NoBaseline { name, .. } => Some(format!(
-                "`umbrage evaluate --save-baseline {name}` makes one; baselines of other adapters do not count"
+                "the same command with `--save-baseline {name}` makes one; baselines of other adapters do not count"
             )),
             Self::Reference(ReferenceError::Device(_)) => {
                 Some("`--reference-on cpu` finds the same truth without a GPU".into())

@@ -71,6 +71,14 @@ impl PanelTruth {
         self.halves[which][frame * self.basis.len() + point]
     }
 
+    /// One of its frames; all there is of a truth of one frame.
+    pub fn frame(&self, frame: usize) -> Self {
+        let length = self.basis.len();
+        let start = if self.frames == 1 { 0 } else { frame * length };
+        let halves = [0, 1].map(|half| self.halves[half][start..start + length].to_vec());
+        Self { frames: 1, halves, basis: self.basis.clone(), variance: self.variance.clone() }
+    }
+
     /// Mean of the halves over the frames, at a point.
     pub fn mean(&self, point: usize) -> f64 {
         let sum: f64 = (0..self.frames)

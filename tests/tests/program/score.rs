@@ -102,6 +102,17 @@ fn truth_scores_at_its_noise() {
     // Uniform noise of +-.1 has a variance of .2^2 / 12 = 3.3e-3; clamped at 0 or 1, .1^2 / 6 - .025^2 = 1.04e-3.
     let noise = scores["noise"]["value"].as_f64().expect("noise");
     assert!((1.0e-3..3.4e-3).contains(&noise), "{noise}");
+    // Three takes can be gated, one cannot: nobody knows how much it varies.
+    handed.rewrite("third", |n, image| noisy(image, 300 + n as u32));
+    let three = format!("{takes} --frames mine=third.####.exr");
+    handed.score(&format!("{three} --save-baseline mine")).ended_with(0);
+    handed.score(&format!("{three} --baseline mine")).ended_with(0);
+    let one = "--cameras cameras.json --frames one=take.####.exr";
+    handed.score(&format!("{one} --save-baseline one")).ended_with(0).says("or --deterministic");
+    handed.score(&format!("{one} --baseline one")).ended_with(3).says("--deterministic");
+    handed.score(&format!("{one} --deterministic --save-baseline one")).ended_with(0);
+    handed.score(&format!("{one} --deterministic --baseline one")).ended_with(0);
+    handed.score(takes).ended_with(0);
     // The page opens and says what this is.
     let page = std::fs::read_to_string(handed.folder().join("run/index.html")).expect("a page");
     assert!(page.contains("from elsewhere") && page.contains("with edge crawl"));
@@ -131,7 +142,11 @@ fn wrong_cameras_are_refused_by_name() {
         handed.score(&format!("--cameras cameras.json {way}")).ended_with(0);
         let refused = |cameras: &str, words: &str| {
             let ran = handed.score(&format!("--cameras {cameras} {way}")).ended_with(3);
-            assert!(ran.stderr.contains(words) && ran.stderr.contains("help:"), "{way}: {}", ran.stderr);
+            assert!(
+                ran.stderr.contains(words) && ran.stderr.contains("help:"),
+                "{cameras}, {way}: {}",
+                ran.stderr
+            );
         };
         // Unity's numbers: x negated in the world, z in the camera.
         let unity = |c: &Camera| {
@@ -163,6 +178,22 @@ fn wrong_cameras_are_refused_by_name() {
         std::fs::write(handed.folder().join("later.json"), later).expect("written");
         refused("later.json", "off by one");
     }
+    // A light that is not the frames', where depth says that the cameras are right.
+    let scene = Scene::builtin("colonnade").expect("a standard scene");
+    let umbrage_scene::AreaLight::Sun { direction_to_light: sun, .. } = scene.lights[0] else {
+        panic!("the colonnade stands in the sun")
+    };
+    let turned = [-sun.x, sun.y, -sun.z];
+    let text = format!("kind = \"sun\"\nangular_diameter_degrees = 1.0\ndirection_to_light = {turned:?}");
+    std::fs::write(handed.folder().join("sun.toml"), text).expect("written");
+    let ran = handed.score(&format!("--cameras cameras.json --light sun.toml {}", WAYS[0])).ended_with(3);
+    assert!(ran.stderr.contains("not this light's") && ran.stderr.contains("--light"), "{}", ran.stderr);
+    // One frame that is broken is what a score is for; it is no shift of all.
+    handed.rewrite("broken", |n, i| if n + 1 == COUNT { noisy(&i.map(|_| 0.5), 5) } else { i.clone() });
+    handed.score("--cameras cameras.json --frames broken.####.exr").ended_with(0);
+    handed.rewrite("inverse", |_, i| i.map(|v| 1.0 - v));
+    let ran = handed.score("--cameras cameras.json --frames inverse.####.exr").ended_with(3);
+    assert!(ran.stderr.contains("1 is fully lit"), "{}", ran.stderr);
     // Pictures: upside down, and mirrored.
     handed.rewrite("down", |_, i| Image::from_fn(i.width(), i.height(), |x, y| *i.at(x, i.height() - 1 - y)));
     let ran = handed.score("--cameras cameras.json --frames down.####.exr").ended_with(3);
@@ -207,6 +238,9 @@ fn a_ratio_of_pictures_is_a_shadow() {
     assert!(card.results()[0].2["error"]["value"].as_f64().expect("ERROR") < 0.01, "{}", ran.stderr);
     let notes = card.windows()[0]["notes"].to_string();
     assert!(notes.contains("without shadows they have no light"), "{notes}");
+    let swapped =
+        line.replace("lit.####", "x").replace("bright.####", "lit.####").replace("x.exr", "bright.####.exr");
+    handed.score(&swapped).ended_with(4).says("the other way round");
     // A picture is not taken for a shadow.
     for number in 0..COUNT {
         let file = |stem: &str| -> PathBuf { handed.folder().join(format!("{stem}.{number:04}.exr")) };

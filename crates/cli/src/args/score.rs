@@ -28,6 +28,9 @@ pub(crate) struct ScoreArgs {
     /// Several names are variants, several patterns of one name are takes of it with other noise.
     #[arg(long, value_name = "[NAME=]PATTERN", required = true)]
     pub(crate) frames: Vec<String>,
+    /// The frames have no randomness: another take would be the same.
+    #[arg(long)]
+    pub(crate) deterministic: bool,
     /// Channel that holds the shadow; found by its name otherwise.
     #[arg(long, value_name = "NAME")]
     pub(crate) channel: Option<String>,
@@ -45,7 +48,7 @@ pub(crate) struct ScoreArgs {
     #[arg(long, value_enum)]
     pub(crate) transfer: Option<TransferArg>,
     /// Without cameras: true frames to compare with, frame by frame.
-    #[arg(long, value_name = "PATTERN", conflicts_with_all = ["scene", "light", "cameras", "path", "convention", "depth"])]
+    #[arg(long, value_name = "PATTERN", conflicts_with_all = ["scene", "unshadowed", "ambient", "light", "cameras", "path", "convention", "depth"])]
     pub(crate) reference_frames: Option<String>,
     /// Score even where the cameras seem not to fit the frames.
     #[arg(long)]

@@ -46,10 +46,10 @@ pub(super) fn save(run: &Path, name: &str, baselines: &Path) -> Result<PathBuf, 
             run.display()
         )));
     }
-    if sums.provenance.seeds < FEWEST_SEEDS && sums.sums.iter().any(|s| s.spread.is_empty()) {
+    if sums.sums.iter().any(|s| s.spread.is_empty()) {
         eprintln!(
             "warning: with {} seeds nothing is known about their spread; no run can be compared with this \
-             baseline: make it with --seeds {FEWEST_SEEDS} or more",
+             baseline: make it with --seeds {FEWEST_SEEDS} or more (frames from elsewhere: as many takes, or --deterministic)",
             sums.provenance.seeds
         );
     }
@@ -99,6 +99,10 @@ pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, 
 /// The run's own command, narrowed down to one case.
 fn reproduce(case: &GateCase, command: &str) -> Option<String> {
     let (scene, path) = (case.scene.as_ref()?, case.path.as_ref()?);
+    if !command.starts_with("umbrage evaluate") {
+        // Frames from elsewhere are scored whole.
+        return Some(shell::without(command, &["--baseline", "--save-baseline", "--out"]));
+    }
     let whole = ["--scene", "--path", "--variant", "--baseline", "--save-baseline", "--out"];
     let narrow = [("--scene", scene), ("--path", path), ("--variant", &case.variant)];
     let narrow = narrow.map(|(flag, value)| format!(" {flag} {}", shell::quoted(value)));

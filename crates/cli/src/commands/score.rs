@@ -39,6 +39,9 @@ pub(crate) fn run(args: &ScoreArgs) -> Result<(), CliError> {
             return Err(CliError::Usage("give --scene with --cameras, or --reference-frames".into()));
         }
     };
+    if args.light.is_none() && args.scene.is_some() {
+        eprintln!("note: no --light: the scene's own first light is taken for the frames'");
+    }
     for note in &notes {
         eprintln!("note: {note}");
     }

@@ -67,7 +67,7 @@ pub(super) fn measure(
         plant: sampling.plant,
     };
     let panel = shade_panel(window, (variant, renderer), Reading::Anchored, draw)?;
-    let (mut numbers, maps) = reduced(window, &panel, (&window.truth, &panel))?;
+    let (mut numbers, maps) = reduced(window, &panel, (&window.truth, (&panel, &window.truth)))?;
     let (view, light) = &window.frames[window.middle()];
     renderer.set_past(window.past(window.middle()));
     let shipped = (Seeding::Frozen, [window.first + window.middle() as u32, 0]);
@@ -96,12 +96,12 @@ pub(super) fn measure(
 pub(super) fn reduced(
     window: &Window,
     panel: &Panel,
-    (truth, sharp): (&PanelTruth, &Panel),
+    (truth, sharp): (&PanelTruth, (&Panel, &PanelTruth)),
 ) -> Result<(Numbers, PointMaps), CliError> {
     let (anchors, tiling) = (&window.anchors, &window.tiling);
     let anchored = window_tiles(panel, truth, tiling)?;
     let maps = point_maps(panel, truth, tiling)?;
-    let profile = window_profiles(sharp, &window.truth, anchors, tiling)?;
+    let profile = window_profiles(sharp.0, sharp.1, anchors, tiling)?;
     let (mut extras, noise_spectrum) = extras::of_panel(window, (panel, &profile), &maps)?;
     extras.insert("worst_tile".into(), extras::worst(&anchored)?);
     let numbers = Numbers {

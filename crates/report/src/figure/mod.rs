@@ -82,12 +82,12 @@ fn choose<'a>(
         let fits = |v: &usize| {
             let of = &card.variants[*v];
             let id = format!("{}/{}", of.name, of.calibration.id());
-            *wanted == id || (*wanted == of.name && of.calibration == Calibration::LightMatched)
+            *wanted == id || (*wanted == of.name && of.calibration != Calibration::AsPrinted)
         };
         let found = (0..card.variants.len()).filter(here).find(fits);
         found.ok_or_else(|| refuse(format!("no pictures of \"{wanted}\" in that window")))
     };
-    let matched = |v: &usize| card.variants[*v].calibration == Calibration::LightMatched;
+    let matched = |v: &usize| card.variants[*v].calibration != Calibration::AsPrinted;
     let variants = match request.variants.as_slice() {
         [] => (0..card.variants.len()).filter(here).filter(matched).collect(),
         wanted => wanted.iter().map(named).collect::<Result<Vec<_>, _>>()?,

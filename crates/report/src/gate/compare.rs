@@ -37,7 +37,8 @@ pub fn not_comparable(base: &Baseline, run: &Baseline) -> Vec<String> {
         }
     }
     if base.sums.iter().chain(&run.sums).any(|s| s.spread.is_empty()) {
-        reasons.push("with 2 seeds nothing is known about their spread: `--seeds 3` or more".into());
+        reasons.push("with 2 seeds nothing is known about their spread: `--seeds 3` or more (of frames from elsewhere: with fewer than 3 takes; \
+                      three, or --deterministic)".into());
     }
     for window in &base.windows {
         let place = format!("{}, {} from frame {}", window.scene, window.path, window.first_frame);

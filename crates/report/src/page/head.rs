@@ -31,7 +31,7 @@ pub(super) fn head(card: &Scorecard, gate: Option<&GateCard>) -> Markup {
             }
             h1 { "Soft shadows against the truth" }
             p.subject {
-                strong { (p.suite) } " · " (card.variants.len()) " variants · " (card.windows.len())
+                strong { (p.suite) } " · " (card.variants.len()) @if card.variants.len() == 1 { " variant" } @else { " variants" } " · " (card.windows.len())
                 @if card.windows.len() == 1 { " window" } @else { " windows" }
                 " · " (p.date)
             }

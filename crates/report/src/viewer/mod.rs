@@ -94,7 +94,7 @@ impl Packer<'_> {
             self.put(format!("w{window}-v{variant}-swim"), &[swim])?;
         }
         // One file holds the comparison's frames; those of the curiosity are large too.
-        let matched = self.card.variants[variant].calibration == Calibration::LightMatched;
+        let matched = self.card.variants[variant].calibration != Calibration::AsPrinted;
         if frames > 0 && (matched || self.folder.is_some()) {
             let mut frames = read_series(run, window, variant)?;
             if self.folder.is_none() {

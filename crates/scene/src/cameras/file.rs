@@ -193,7 +193,8 @@ impl Transforms {
 /// "./train/r_12.png" is 12.
 fn trailing_number(file: &str) -> Option<u32> {
     let name = file.rsplit(['/', '\\']).next()?;
-    let stem = name.split('.').next()?;
+    let stem =
+        name.rsplit_once('.').filter(|(_, end)| end.parse::<u32>().is_err()).map_or(name, |(stem, _)| stem);
     let digits = stem.len() - stem.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     stem[stem.len() - digits..].parse().ok()
 }

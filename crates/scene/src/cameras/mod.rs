@@ -15,6 +15,8 @@ use crate::{Camera, SceneError};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 
+/// Largest number of a place, in the file's units.
+const FARTHEST: f64 = 1e15;
 /// Frames per second where a file does not say.
 const USUAL_FPS: f64 = 60.0;
 
@@ -149,6 +151,12 @@ impl CameraFile {
             if !(frame.yfov > 0.0 && frame.yfov < std::f64::consts::PI) {
                 let degrees = if frame.yfov >= std::f64::consts::PI { "; degrees, perhaps?" } else { "" };
                 return refuse(format!("yfov must be in radians, 0 to 3.14, is {}{degrees}", frame.yfov));
+            }
+            if frame.world_from_camera.iter().chain(&frame.near).chain(&frame.far).any(|v| v.abs() > FARTHEST)
+            {
+                return refuse(format!(
+                    "a place or a distance is above {FARTHEST:e}: no f32 holds a scene of that size"
+                ));
             }
             let (near, far) = (frame.near.unwrap_or(1e-6), frame.far.unwrap_or(f64::MAX));
             if !(near > 0.0 && near < far) {

@@ -23,6 +23,8 @@ pub(crate) struct Frames {
     pub(crate) size: (u32, u32),
     /// Bits of integer pictures.
     pub(crate) bits: Option<u8>,
+    /// Whether another take would be the same.
+    pub(crate) deterministic: bool,
 }
 
 /// A mask; NaN where a ratio is not defined, and nowhere else.
@@ -35,6 +37,8 @@ pub(crate) struct Mask {
 const DARK: f32 = 1e-3;
 /// How far a mask may lie outside 0 to 1: rounding of half floats and of a ratio.
 const ROUNDING: f32 = 0.01;
+/// Frames of a sequence, with its holes.
+const MOST_HOLES: usize = 100_000;
 /// Numbers that a message lists.
 const LISTED: usize = 12;
 
@@ -43,12 +47,17 @@ impl Frames {
     pub(crate) fn find(args: &ScoreArgs) -> Result<Self, CliError> {
         let mut subjects: Vec<Subject> = Vec::new();
         for given in &args.frames {
-            let (name, pattern) = match given.split_once('=') {
+            let (name, pattern, is_named) = match given.split_once('=') {
                 Some((name, pattern)) if !name.is_empty() && !name.contains(['/', '\\']) => {
-                    (name.into(), pattern)
+                    (name.into(), pattern, true)
                 }
-                _ => (name_of(given), given.as_str()),
+                _ => (name_of(given), given.as_str(), false),
             };
+            if !is_named && subjects.iter().any(|s| s.name == name) {
+                return Err(CliError::Usage(format!(
+                    "several --frames are called \"{name}\": are they takes of one variant, or two? Say NAME=PATTERN"
+                )));
+            }
             let take = NumberedFiles::find(pattern)?;
             match subjects.iter_mut().find(|s| s.name == name) {
                 Some(subject) if subject.takes.contains(&take) => {
@@ -68,8 +77,15 @@ impl Frames {
             transfer: args.transfer,
             size: (0, 0),
             bits: None,
+            deterministic: args.deterministic,
         };
         let first = Picture::read(frames.first_file())?;
+        if first.bits.is_none() && args.transfer.is_some() {
+            return Err(CliError::Usage(format!(
+                "--transfer is for code values: {} holds light itself",
+                frames.first_file().display()
+            )));
+        }
         (frames.size, frames.bits) = (first.size(), first.bits);
         if frames.bits.is_some() && args.transfer.is_none() {
             return Err(CliError::Usage(format!(
@@ -84,7 +100,12 @@ impl Frames {
     pub(crate) fn numbers(&self) -> Vec<u32> {
         let take = self.subjects.first().and_then(|s| s.takes.first());
         let ends = take.and_then(|t| Some((*t.files.keys().next()?, *t.files.keys().last()?)));
-        ends.map(|(first, last)| (first..=last).collect()).unwrap_or_default()
+        let files = take.map(|t| t.files.keys().copied().collect()).unwrap_or_default();
+        match ends {
+            // A number that is far off is a file of something else: it will be missed by its own number.
+            Some((first, last)) if (last - first) as usize <= MOST_HOLES => (first..=last).collect(),
+            _ => files,
+        }
     }
 
     fn first_file(&self) -> &Path {
@@ -174,7 +195,17 @@ impl Frames {
             let all = without.at(x, y) - ambient;
             if all <= DARK * most { f32::NAN } else { (with.at(x, y) - ambient) / all }
         };
-        Ok(Image::from_fn(width, height, ratio))
+        let image = Image::from_fn(width, height, ratio);
+        // Noise takes single pixels over 1; pictures that were swapped take whole shadows there.
+        let brighter = image.pixels().iter().filter(|v| **v > 1.5).count();
+        if brighter * 50 > image.pixels().len() {
+            let message = format!(
+                "{brighter} pixels are brighter with shadows than without: is --unshadowed the other way round, or of another \
+                 exposure?"
+            );
+            return Err(CliError::Frame { path: path.into(), message });
+        }
+        Ok(image)
     }
 
     /// Code values become light; floats are it.
@@ -195,6 +226,10 @@ impl Frames {
     /// The mean squared error that steps of an integer format make at these lights: a uniform distribution over
     /// a step has a variance of its square over 12. None for floats.
     pub(crate) fn quantisation(&self, lights: impl Iterator<Item = f32>) -> Option<f64> {
+        if self.unshadowed.is_some() {
+            // Of a ratio it depends on how bright the picture is.
+            return None;
+        }
         let (bits, transfer) = (self.bits?, self.transfer()?);
         let step = 1.0 / f64::from((1u32 << bits) - 1);
         let (mut sum, mut count) = (0.0, 0usize);
@@ -261,7 +296,8 @@ fn check_finite(path: &Path, image: &Image<f32>) -> Result<(), CliError> {
 fn check_range(path: &Path, image: &Image<f32>) -> Result<(), CliError> {
     let outside = |v: &&f32| **v < -ROUNDING || **v > 1.0 + ROUNDING;
     let count = image.pixels().iter().filter(outside).count();
-    if count * 1000 <= image.pixels().len() {
+    let wild = |v: &&f32| **v < -1.0 || **v > 2.0;
+    if count * 1000 <= image.pixels().len() && !image.pixels().iter().any(|v| wild(&v)) {
         return Ok(());
     }
     let (low, high) = image.pixels().iter().fold((f32::MAX, f32::MIN), |(l, h), &v| (l.min(v), h.max(v)));

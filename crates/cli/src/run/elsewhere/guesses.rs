@@ -1,7 +1,7 @@
 //! The usual mistakes with cameras, each with what it would have been and what to do.
 
 use glam::{DVec3, Mat4, Vec3};
-use umbrage_scene::{Camera, CameraFile, Preset};
+use umbrage_scene::{Camera, CameraFile, Convention, Preset};
 
 /// Cameras with one mistake taken back.
 pub(super) struct Guess {
@@ -37,10 +37,12 @@ impl Guess {
 
 /// Everything that is tried: `file` where the cameras are written in one.
 pub(super) fn guesses(given: &[Camera], aspect: f32, file: Option<(&CameraFile, DVec3)>) -> Vec<Guess> {
-    let mut all = of_pictures(given);
+    // On ties the first counts: an engine's name says more than an axis.
+    let mut all: Vec<Guess> =
+        file.into_iter().flat_map(|(file, origin)| of_conventions(file, origin)).collect();
+    all.extend(of_pictures(given));
     all.extend(of_lenses(given, aspect));
     all.extend(of_places(given));
-    all.extend(file.into_iter().flat_map(|(file, origin)| of_conventions(file, origin)));
     all
 }
 
@@ -159,17 +161,18 @@ fn of_conventions(file: &CameraFile, origin: DVec3) -> Vec<Guess> {
     let mut all: Vec<Guess> = Vec::new();
     // Godot and Bevy are as glTF.
     for preset in [Preset::Gltf, Preset::Blender, Preset::Unity, Preset::Unreal] {
-        let mut convention = preset.convention();
-        if convention.matrix_order == Default::default() {
-            convention.matrix_order = file.convention.matrix_order;
+        // The numbers may follow each other as the engine has them, or as the file says.
+        let own = preset.convention();
+        let as_written = Convention { matrix_order: file.convention.matrix_order, ..own };
+        for convention in [own, as_written] {
+            if convention == file.convention {
+                continue;
+            }
+            let Ok(cameras) = file.cameras(&convention, origin) else { continue };
+            let cameras = cameras.iter().map(|c| c.camera).collect();
+            let words = format!("with the cameras read as {} writes them", preset.name());
+            all.push(Guess::new(cameras, words, format!("--convention {}", preset.name())));
         }
-        if convention == file.convention {
-            continue;
-        }
-        let Ok(cameras) = file.cameras(&convention, origin) else { continue };
-        let cameras = cameras.iter().map(|c| c.camera).collect();
-        let words = format!("with the cameras read as {} writes them", preset.name());
-        all.push(Guess::new(cameras, words, format!("--convention {}", preset.name())));
     }
     all
 }

@@ -70,7 +70,13 @@ pub(super) fn measure(
         last = hashes;
     }
     let truth = window.pixel_truth.as_ref().unwrap_or(&window.truth);
-    let (mut numbers, maps) = reduced(window, &panel, (truth, &panel.frame(window.middle())))?;
+    let middle = window.middle();
+    let sharp = (panel.frame(middle), window.truth.frame(middle));
+    let (mut numbers, maps) = reduced(window, &panel, (truth, (&sharp.0, &sharp.1)))?;
+    if seeds == 1 && !frames.deterministic {
+        // How much one take varies nobody knows: a gate must not take it for nothing.
+        numbers.spread = None;
+    }
     // A window has at least one frame.
     let shown = shown.unwrap_or_else(|| Image::filled(frames.size.0, frames.size.1, 0.0));
     let shown = shown.map(|v| if v.is_finite() { *v } else { 0.0 });

@@ -21,6 +21,7 @@ pub(super) fn subjects(frames: &Frames) -> Subjects {
         technique: subject.name.clone(),
         calibration: Calibration::Elsewhere,
         taps: match subject.takes.len() {
+            1 if frames.deterministic => "no randomness".into(),
             1 => ONE_TAKE.into(),
             n => format!("{n} takes"),
         },

@@ -49,7 +49,7 @@ export const actions = {
   fit: () => { fit(); changed(); },
   swap: () => { [state.left, state.right] = [state.right, state.left]; changed(); },
   tiles: () => { state.tiles = !state.tiles; changed(); },
-  help: () => { const help = find(".help"); help.open ? help.close() : help.show(); },
+  help: () => { const help = find(".help"); help.open ? help.close() : help.showModal(); },
   play: () => play(), back: () => step(-1), forward: () => step(1), follow,
   still: () => { play(false); chooseFrame(null); },
   reset: () => { Object.assign(state, { exposure: 0, errorLimit: data.error_limit, swimLimit: current().swim_limit }); changed(); },
@@ -173,9 +173,19 @@ function pointer() {
   const release = (event) => pointers.delete(event.pointerId);
   stage.addEventListener("pointerup", release);
   stage.addEventListener("pointercancel", release);
-  // What the pointer is over is flipped to; without one, the button and the key do it.
+  // What the pointer is over is flipped to; a finger flips while it rests, and reads where it was.
+  stage.addEventListener("pointerdown", (e) => {
+    if (e.pointerType === "mouse") return;
+    Object.assign(state, { flipped: true, cursor: { ...placeAt(...at(e)), shown: true } });
+    changed();
+  });
+  stage.addEventListener("pointerup", (e) => { if (e.pointerType !== "mouse") { state.flipped = Boolean(state.held); changed(); } });
   stage.addEventListener("pointerenter", (e) => { if (e.pointerType === "mouse") { state.flipped = true; changed(); } });
-  stage.addEventListener("pointerleave", () => { Object.assign(state, { flipped: false, cursor: null }); changed(); });
+  stage.addEventListener("pointerleave", (e) => {
+    state.flipped = Boolean(state.held);
+    if (e.pointerType === "mouse") state.cursor = null;
+    changed();
+  });
   stage.addEventListener("dblclick", (event) => zoom(2, placeAt(...at(event))));
   stage.addEventListener("wheel", (event) => {
     // The page scrolls until somebody means the picture.

@@ -60,7 +60,7 @@ function pressed(event) {
   const key = event.key.length === 1 && event.key !== "E" ? event.key.toLowerCase() : event.key;
   if (key === "f") {
     if (state.mode !== "flip") setMode("flip");
-    if (!event.repeat) state.flipped = !state.flipped;
+    [state.held, state.flipped] = [true, true];
     changed();
     return true;
   }
@@ -84,6 +84,13 @@ function pressed(event) {
   return true;
 }
 
+// Wherever the focus has gone meanwhile.
+function letGo() {
+  if (!state.held) return;
+  [state.held, state.flipped] = [false, stage.matches(":hover")];
+  changed();
+}
+
 export function startKeys() {
   // Keys belong to whoever has the focus; without one, to the viewer when it is in sight.
   const ours = (event) => {
@@ -97,9 +104,7 @@ export function startKeys() {
     if (ours(event) && pressed(event)) event.preventDefault();
   });
   document.addEventListener("keyup", (event) => {
-    if (event.key.toLowerCase() === "f" && state.mode === "flip" && ours(event)) {
-      state.flipped = !state.flipped;
-      changed();
-    }
+    if (event.key.toLowerCase() === "f") letGo();
   });
+  window.addEventListener("blur", letGo);
 }

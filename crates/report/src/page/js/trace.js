@@ -8,11 +8,15 @@ import { openWindow, setMode } from "./controls.js";
 const quoted = (word) => (/^[\w./=+,:-]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'");
 
 // The run's own command without its narrowing and its places, and narrowed to one thing.
-export function narrowed(command, { scene, path }, variant) {
+export function narrowed(command, w, variant) {
   const words = command.match(/(?:[^\s']|'[^']*')+/g) ?? [];
   const taken = ["--scene", "--path", "--variant", "--out", "--cache", "--baseline", "--save-baseline", "--baselines"];
   const kept = words.filter((word, i) => !taken.includes(word.split("=")[0]) && !(taken.includes(words[i - 1])));
-  return [...kept, "--scene", quoted(scene), "--path", quoted(path), "--variant", quoted(variant)].join(" ");
+  // Frames from elsewhere are scored whole.
+  if (words[1] !== "evaluate") return words.filter((word, i) => ![word, words[i - 1]].some((v) => ["--out", "--cache"].includes(v))).join(" ");
+  // What is pooled over windows takes all of them.
+  const place = w ? ["--scene", quoted(w.scene), "--path", quoted(w.path)] : words.flatMap((word, i) => (["--scene", "--path"].includes(word) ? [word, words[i + 1]] : []));
+  return [...kept, ...place, "--variant", quoted(variant)].join(" ");
 }
 
 // Opens the viewer at a place: truth beside what a variant does there.
@@ -89,7 +93,7 @@ function fill(panel, cell) {
       openAt({ window: where, variant, kind: moves ? "swim" : "error", place: place?.place, frame: place?.frame ?? null });
     });
   }
-  const command = narrowed(data.command, w, of.id);
+  const command = narrowed(data.command, window === null ? null : w, of.id);
   const line = document.createElement("pre");
   line.className = "command";
   line.tabIndex = 0;
