@@ -18,5 +18,6 @@ pub(crate) fn ensure() -> Outcome {
         return Ok(());
     }
     eprintln!("no browser found: installing Chromium (or name one in UMBRAGE_BROWSER)");
-    install(&["chromium"])
+    // A page without a font has no text to lay out.
+    install(&["chromium", "fonts-dejavu-core"])
 }
