@@ -2,12 +2,16 @@
 
 use crate::error::CliError;
 use umbrage_frame::View;
-use umbrage_scene::{CameraPath, PathFrame, Scene};
+use umbrage_scene::{Camera, CameraPath, PathFrame, Scene};
 use umbrage_shadows::VARIANTS;
 
 /// The view of a path's frame in a picture of this size.
-pub(crate) fn view_of(frame: &PathFrame, (width, height): (u32, u32)) -> View {
-    let camera = &frame.camera;
+pub(crate) fn view_of(frame: &PathFrame, size: (u32, u32)) -> View {
+    view_from(&frame.camera, size)
+}
+
+/// The view of a camera in a picture of this size.
+pub(crate) fn view_from(camera: &Camera, (width, height): (u32, u32)) -> View {
     let camera_from_world = camera.camera_from_world();
     View {
         width,

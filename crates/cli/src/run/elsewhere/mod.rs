@@ -60,6 +60,13 @@ pub(crate) fn score(
         true => "whether the cameras fit the frames was not checked: --no-projection-check".into(),
         false => check_projection(plan, &tracer)?,
     });
+    if plan.numbers.windows(2).any(|pair| pair[1] != pair[0] + 1) {
+        notes.push("the frames skip numbers: swimming is over larger steps than a frame's".into());
+    }
+    if plan.frames.unshadowed.is_some() && plan.frames.bits.is_some() {
+        notes.push("the error of the format's steps in a ratio depends on how bright the pictures are, and is not known; banding of \
+                    dark surfaces may be the format's: write floats".into());
+    }
     let mut finder = Finder::new(&tracer, settings.truth_gpu.as_ref())?;
     let cache = Cache::open(args.cache.join("truth"))?;
     let mut writer = RunWriter::create(&settings.out)?;

@@ -7,6 +7,7 @@
 
 use super::guesses::Guess;
 use crate::error::CliError;
+use crate::views::view_from;
 use umbrage_frame::{Image, View};
 use umbrage_reference::{Tracer, TruthSettings};
 use umbrage_scene::{AreaLight, Camera};
@@ -166,7 +167,7 @@ impl Asked<'_> {
             if shown.place.checked_add_signed(offset).is_none_or(|p| p >= guess.cameras.len()) {
                 continue;
             }
-            let view = view(camera, self.size);
+            let view = view_from(camera, self.size);
             let seen = |pixel: u32| guess.flipped(pixel, self.size);
             let (depths, points) = self.tracer.primary_some(&view, &grid);
             if let Some(depth) = shown.depth.as_ref().filter(|_| by_depth) {
@@ -221,16 +222,4 @@ fn correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     // A thousandth of the points in shadow.
     (pairs.len() > 1 && product(1, 1) > 1e-3 * n && product(0, 0) > 1e-6 * n)
         .then(|| product(0, 1) / spread.sqrt())
-}
-
-/// The view of a camera in a picture of this size.
-fn view(camera: &Camera, (width, height): (u32, u32)) -> View {
-    let camera_from_world = camera.camera_from_world();
-    View {
-        width,
-        height,
-        clip_from_world: camera.clip_from_camera(width as f32 / height as f32) * camera_from_world,
-        camera_from_world,
-        yfov_radians: camera.yfov_radians,
-    }
 }
