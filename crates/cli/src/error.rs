@@ -31,7 +31,7 @@ pub(crate) enum CliError {
     Frame { path: PathBuf, message: String },
     #[error(transparent)]
     Sequence(#[from] umbrage_frame::SequenceError),
-    #[error("the cameras do not fit the frames: {0}")]
+    #[error("the frames do not fit the scene, light and cameras: {0}")]
     Projection(String),
     #[error("nothing could be scored: {0}")]
     NothingScored(String),

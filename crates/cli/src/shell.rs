@@ -26,6 +26,24 @@ pub(crate) fn without(line: &str, flags: &[&str]) -> String {
     self::line(kept)
 }
 
+/// A line of [`line()`] with those values of a flag alone that are wanted.
+pub(crate) fn keeping(line: &str, flag: &str, is_wanted: impl Fn(&str) -> bool) -> String {
+    let mut kept = Vec::new();
+    let mut all = words(line).into_iter();
+    while let Some(word) = all.next() {
+        match word.strip_prefix(flag) {
+            Some("") => {
+                if let Some(value) = all.next().filter(|value| is_wanted(value)) {
+                    kept.extend([word, value]);
+                }
+            }
+            Some(rest) if rest.strip_prefix('=').is_some_and(|value| !is_wanted(value)) => {}
+            _ => kept.push(word),
+        }
+    }
+    self::line(kept)
+}
+
 /// The words that a line of [`line()`] was made of.
 fn words(line: &str) -> Vec<String> {
     let (mut words, mut word, mut inside, mut any) = (Vec::new(), String::new(), false, false);
@@ -64,5 +82,14 @@ mod tests {
         let line = "umbrage evaluate 'my scene' --out 'a b' --cache=c --quick --scene x";
         assert_eq!(without(line, &["--out", "--cache", "--scene"]), "umbrage evaluate 'my scene' --quick");
         assert_eq!(without("umbrage --out", &["--out"]), "umbrage");
+        let line = "umbrage score --frames 'a b=x.##.exr' --frames=c=y.exr --frames d/z.exr --seeds 3";
+        assert_eq!(
+            keeping(line, "--frames", |v| v.starts_with("a b")),
+            "umbrage score --frames 'a b=x.##.exr' --seeds 3"
+        );
+        assert_eq!(
+            keeping(line, "--frames", |v| v.starts_with('c')),
+            "umbrage score --frames=c=y.exr --seeds 3"
+        );
     }
 }

@@ -34,9 +34,25 @@ pub enum ExrError {
 /// Most pixels that a header may announce before the file is refused unread: 16384 squared, the
 /// largest texture of common adapters.
 const MAX_PIXELS: usize = 16384 * 16384;
+/// Most values, of all channels: 4 GiB of floats, four channels of the largest picture.
+const MAX_VALUES: usize = 4 * MAX_PIXELS;
+/// A file that says much more than it holds is broken: DWAB packs a constant of 256 lines, the best case, into some
+/// 300 bytes, which is 14,000 values a byte in the widest picture.
+const MOST_VALUES_A_BYTE: usize = 1 << 16;
 
 pub(crate) fn file_error(path: &Path, reason: impl ToString) -> ExrError {
     ExrError::File { path: path.into(), reason: reason.to_string() }
+}
+
+/// The library says of a file that ends too early only that bytes are missing.
+fn read_error(path: &Path, error: &exr::error::Error) -> ExrError {
+    let reason = error.to_string();
+    let ends_early =
+        ["missing bytes", "failed to fill whole buffer", "reference to"].iter().any(|w| reason.contains(w));
+    match ends_early {
+        true => file_error(path, format!("is truncated or broken ({reason}): write it again")),
+        false => file_error(path, reason),
+    }
 }
 
 /// Writes layers of one size.
@@ -74,19 +90,33 @@ pub fn write_exr(path: &Path, layers: &[Layer]) -> Result<(), ExrError> {
 /// # Errors
 /// A file that is missing, truncated, no EXR, or announces more than 16384 x 16384 pixels.
 pub fn read_exr(path: &Path) -> Result<Vec<Layer>, ExrError> {
-    let meta = ex::MetaData::read_from_file(path, false).map_err(|e| file_error(path, e))?;
+    let meta = ex::MetaData::read_from_file(path, false).map_err(|e| read_error(path, &e))?;
+    let bytes = std::fs::metadata(path).map_err(|e| file_error(path, e))?.len() as usize;
+    let mut values = 0usize;
     for header in &meta.headers {
-        if header.layer_size.area() > MAX_PIXELS {
-            return Err(file_error(
+        let ex::Vec2(width, height) = header.layer_size;
+        let channels = header.channels.list.len();
+        let too_large = |what: &str| {
+            Err(file_error(
                 path,
-                format!("announces {:?} pixels, more than 16384 x 16384", header.layer_size),
-            ));
+                format!("announces {width} x {height} pixels in {channels} channels, {what}"),
+            ))
+        };
+        if header.layer_size.area() > MAX_PIXELS {
+            return too_large("more than 16384 x 16384 pixels");
+        }
+        values = values.saturating_add(header.layer_size.area().saturating_mul(channels));
+        if values > MAX_VALUES {
+            return too_large("more than 4 GiB of values: write the channels that are scored alone");
+        }
+        if values > bytes.saturating_mul(MOST_VALUES_A_BYTE) {
+            return too_large(&format!("but has {bytes} bytes: it is truncated or broken"));
         }
     }
     use ex::{ReadChannels as _, ReadLayers as _};
     let reader =
         ex::read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
-    let image = reader.from_file(path).map_err(|e| file_error(path, e))?;
+    let image = reader.from_file(path).map_err(|e| read_error(path, &e))?;
     let mut layers = Vec::new();
     let whole = image.attributes.display_window;
     for part in image.layer_data {
@@ -94,9 +124,16 @@ pub fn read_exr(path: &Path) -> Result<Vec<Layer>, ExrError> {
             return Err(file_error(
                 path,
                 format!(
-                    "its data window ({:?} at {:?}) is not its display window ({:?}): write whole pictures, without overscan \
-                     or crop",
-                    part.size, part.attributes.layer_position, whole
+                    "its data window ({}x{} at {}, {}) is not its display window ({}x{} at {}, {}): write whole pictures, \
+                     without overscan or crop",
+                    part.size.0,
+                    part.size.1,
+                    part.attributes.layer_position.0,
+                    part.attributes.layer_position.1,
+                    whole.size.0,
+                    whole.size.1,
+                    whole.position.0,
+                    whole.position.1
                 ),
             ));
         }
@@ -132,6 +169,36 @@ mod tests {
         write_exr(&path, &[("R".to_string(), Image::filled(64, 64, 0.25))]).expect("written");
         let bytes = std::fs::read(&path).expect("read");
         std::fs::write(&path, &bytes[..bytes.len() / 2]).expect("cut");
-        assert!(read_exr(&path).expect_err("truncated").to_string().contains("cut.exr"));
+        let message = read_exr(&path).expect_err("truncated").to_string();
+        assert!(message.contains("cut.exr") && message.contains("truncated"), "{message}");
+        std::fs::write(&path, "").expect("emptied");
+        let message = read_exr(&path).expect_err("empty").to_string();
+        assert!(message.contains("truncated"), "{message}");
+    }
+
+    /// So many channels of so many pixels, and a few hundred bytes.
+    #[test]
+    fn a_header_that_announces_too_much_is_refused_before_memory_is_asked_for() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("huge.exr");
+        let refused = |(channels, side): (usize, u32), words: &str| {
+            let layer = |k: usize| (format!("l{k}.V"), Image::filled(4, 4, 0.5));
+            write_exr(&path, &(0..channels).map(layer).collect::<Vec<_>>()).expect("written");
+            let mut bytes = std::fs::read(&path).expect("read");
+            for name in ["dataWindow", "displayWindow"] {
+                let wanted = format!("{name}\0box2i\0");
+                let at = bytes.windows(wanted.len()).position(|w| w == wanted.as_bytes()).expect("a window");
+                let at = at + wanted.len() + 4 + 8;
+                for corner in [at, at + 4] {
+                    bytes[corner..corner + 4].copy_from_slice(&(side - 1).to_le_bytes());
+                }
+            }
+            std::fs::write(&path, bytes).expect("written");
+            let message = read_exr(&path).expect_err(words).to_string();
+            assert!(message.contains("huge.exr") && message.contains(words), "{message}");
+        };
+        refused((1, 100_000), "announces 100000 x 100000 pixels in 1 channels");
+        refused((41, 16_384), "more than 4 GiB of values");
+        refused((1, 16_384), "it is truncated or broken");
     }
 }

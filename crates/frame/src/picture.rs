@@ -23,7 +23,8 @@ pub enum Transfer {
 }
 
 /// Channels that are taken for a shadow without being told.
-const SHADOW_NAMES: [&str; 6] = ["visibility.V", "shadow.V", "mask.V", "V", "Y", "shadow"];
+/// "reference.V" is what `umbrage reference` writes.
+const SHADOW_NAMES: [&str; 7] = ["visibility.V", "reference.V", "shadow.V", "mask.V", "V", "Y", "shadow"];
 /// Most pixels along a side.
 const MAX_SIDE: u32 = 16384;
 

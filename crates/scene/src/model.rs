@@ -2,7 +2,7 @@
 //! yet checked. No light, no path and no region: those come from the scene file.
 
 use crate::gltf_file::CameraTrack;
-use crate::{Material, SceneError};
+use crate::{AlphaMask, Material, SceneError};
 use glam::{DAffine3, DVec3, Vec2};
 use std::path::Path;
 
@@ -48,9 +48,25 @@ impl Model {
     /// Whether every triangle has its vertices, and each of them a place that f32 can hold.
     ///
     /// # Errors
-    /// `IndexOutOfRange` or `VertexNotFinite` for the first that has not.
+    /// `IndexOutOfRange` or `VertexNotFinite` for the first that has not; a cut-out without places in its picture,
+    /// which would be there or not as the picture's first texel happens to be.
     pub(crate) fn check(&self, path: &Path) -> Result<(), SceneError> {
-        self.objects.iter().try_for_each(|object| object.check(path))
+        self.objects.iter().try_for_each(|object| object.check(path))?;
+        let is_cut = |object: &&Object| {
+            let material = self.materials.get(object.material as usize);
+            material.and_then(|m| m.mask.as_ref()).is_some_and(AlphaMask::varies)
+        };
+        match self.objects.iter().filter(is_cut).find(|o| o.uvs.len() < o.triangles.len()) {
+            None => Ok(()),
+            Some(object) => Err(SceneError::value(
+                path,
+                format!(
+                    "object '{}' is cut out by a picture, but has no texture coordinates (OBJ vt, glTF TEXCOORD): export them, or \
+                     make its material opaque",
+                    object.name
+                ),
+            )),
+        }
     }
 
     /// Takes over another file's contents.

@@ -72,6 +72,11 @@ impl AlphaMask {
         Self { size, wrap, bits: bits.into() }
     }
 
+    /// Whether it depends on the place.
+    pub(crate) fn varies(&self) -> bool {
+        self.size != [1, 1]
+    }
+
     /// Whether the surface is there: at the texel `floor(uv * size)`.
     #[inline(always)]
     pub fn is_opaque(&self, uv: DVec2) -> bool {

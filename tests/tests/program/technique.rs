@@ -122,6 +122,7 @@ fn wgsl_is_refused_at_the_users_line() {
     refused(&at("r.normal);", "r.normal;"), 4, &["mine.wgsl:5:", "expected"]);
     refused(&at("filter_disc(", "filter_disk("), 4, &["mine.wgsl:6:12:", "filter_disk"]);
     refused(&at("return filter_disc(s,", "return filter_disc(2u,"), 4, &["mine.wgsl:6:"]);
+    refused(&at("return ", "discard; return "), 4, &["mine.wgsl:6:", "forbidden at this stage"]);
     refused(&at("fn shade", "fn shadow"), 4, &["mine.wgsl:4:", "fn shade(r: Receiver) -> f32"]);
     refused(&at("-> f32", "-> vec2<f32>").replace("return ", "return vec2(1.0) * "), 4, &["signature"]);
     refused(&format!("{PCF}override wide: f32;\n"), 4, &["mine.wgsl:8:", "[constants]"]);
@@ -146,6 +147,13 @@ fn headers_are_refused_at_their_line() {
     refused(&PCF.replace("//! name", "// name"), 4, &["mine.wgsl:", "name"]);
     refused("fn shade(r: Receiver) -> f32 { return 1.0; }", 4, &["mine.wgsl:1:1:", "no header"]);
     refused(&format!("{PCF}//! seeds = 3\n"), 4, &["mine.wgsl:8:", "below code"]);
+}
+
+#[test]
+fn an_error_does_not_quote_the_program_s_own_source() {
+    let folder = folder_with(&format!("{PCF}/* "));
+    let ran = evaluate(folder.path(), "--variant hard/light-matched").ended_with(4).says("mine.wgsl:8:");
+    assert!(ran.stderr.len() < 1000, "{} bytes: {}", ran.stderr.len(), ran.stderr);
 }
 
 #[test]

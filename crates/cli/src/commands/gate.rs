@@ -4,6 +4,7 @@ use super::evaluate::layout;
 use crate::args::{AcceptArgs, CompareArgs, FailOn, GateArgs, ReportKind};
 use crate::error::CliError;
 use crate::output::print;
+use crate::run::elsewhere::subject_name;
 use crate::shell;
 use std::path::{Path, PathBuf};
 use umbrage_metrics::Verdict;
@@ -100,8 +101,10 @@ pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, 
 fn reproduce(case: &GateCase, command: &str) -> Option<String> {
     let (scene, path) = (case.scene.as_ref()?, case.path.as_ref()?);
     if !command.starts_with("umbrage evaluate") {
-        // Frames from elsewhere are scored whole.
-        return Some(shell::without(command, &["--baseline", "--save-baseline", "--out"]));
+        // Windows of frames from elsewhere have no flag; their variants have.
+        let whole = shell::without(command, &["--baseline", "--save-baseline", "--out"]);
+        let variant = case.variant.rsplit_once('/').map_or(case.variant.as_str(), |(name, _)| name);
+        return Some(shell::keeping(&whole, "--frames", |value| subject_name(value) == variant));
     }
     let whole = ["--scene", "--path", "--variant", "--baseline", "--save-baseline", "--out"];
     let narrow = [("--scene", scene), ("--path", path), ("--variant", &case.variant)];

@@ -6,7 +6,7 @@ use crate::args::ScoreArgs;
 use crate::clock;
 use crate::error::CliError;
 use crate::output::print;
-use crate::run::elsewhere::{Frames, ScorePlan, ScoreSettings, score, score_without_cameras};
+use crate::run::elsewhere::{Frames, ScorePlan, ScoreSettings, nobody, score, score_without_cameras};
 use crate::scenes::find_scene;
 use std::path::Path;
 use umbrage_frame::NumberedFiles;
@@ -15,6 +15,10 @@ use umbrage_scene::{CameraFile, CameraPath, FrameCamera, LightSpec, PathFrame, S
 
 pub(crate) fn run(args: &ScoreArgs) -> Result<(), CliError> {
     args.save_baseline.as_deref().map_or(Ok(()), gate::check_name)?;
+    if let Some(name) = &args.baseline {
+        // That it is not there is said before the work, not after it.
+        gate::place_of(name, &nobody(), &args.gate.baselines)?;
+    }
     let frames = Frames::find(args)?;
     let now = clock::now();
     let named = |name: &str| args.out.clone().unwrap_or_else(|| run_folder(name, &now.folder));
@@ -42,8 +46,12 @@ pub(crate) fn run(args: &ScoreArgs) -> Result<(), CliError> {
     if args.light.is_none() && args.scene.is_some() {
         eprintln!("note: no --light: the scene's own first light is taken for the frames'");
     }
-    for note in &notes {
-        eprintln!("note: {note}");
+    let mut said: Vec<&String> = Vec::new();
+    for note in notes.iter().chain(card.windows.iter().flat_map(|w| &w.notes)) {
+        if !said.contains(&note) {
+            said.push(note);
+            eprintln!("note: {note}");
+        }
     }
     let written = write_report(&out, layout(args.report))?;
     for warning in &written.warnings {

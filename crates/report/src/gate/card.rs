@@ -146,6 +146,10 @@ impl GateCard {
 
 pub(crate) const GATE: &str = "gate.json";
 
+/// Before commands that are to be copied.
+pub(crate) const MEASURE: &str = "measure just this: ";
+pub(crate) const ACCEPT: &str = "accept it: ";
+
 impl GateCase {
     /// "colonnade, P1" or "all windows".
     pub fn place(&self) -> String {
@@ -163,8 +167,8 @@ impl GateCase {
         }
         lines.extend(self.worst_frame.map(|f| format!("worst frame {f}")));
         lines.extend(self.crop.as_ref().map(|c| format!("picture {c}")));
-        lines.extend(self.reproduce.as_ref().map(|r| format!("measure just this: {r}")));
-        lines.push(format!("accept it: {}", gate.accept));
+        lines.extend(self.reproduce.as_ref().map(|r| format!("{MEASURE}{r}")));
+        lines.push(format!("{ACCEPT}{}", gate.accept));
         lines
     }
 

@@ -37,7 +37,7 @@ pub fn not_comparable(base: &Baseline, run: &Baseline) -> Vec<String> {
         }
     }
     if base.sums.iter().chain(&run.sums).any(|s| s.spread.is_empty()) {
-        reasons.push("with 2 seeds nothing is known about their spread: `--seeds 3` or more (of frames from elsewhere: with fewer than 3 takes; \
+        reasons.push("with fewer than 3 seeds nothing is known about their spread: `--seeds 3` or more (of frames from elsewhere: with fewer than 3 takes; \
                       three, or --deterministic)".into());
     }
     for window in &base.windows {

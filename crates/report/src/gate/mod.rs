@@ -12,5 +12,5 @@ pub use compare::{compare, not_comparable};
 pub use crops::write_gate_crops;
 pub use margins::{MarginCard, Margins, gated};
 
-pub(crate) use card::{GATE, short, short_up};
+pub(crate) use card::{ACCEPT, GATE, MEASURE, short, short_up};
 pub(crate) use crops::FOLDER as CROPS;

@@ -28,6 +28,15 @@ pub(super) fn xml(text: &str) -> String {
     escaped
 }
 
+/// A code span of Markdown (CommonMark 6.1): fenced by more backticks than stand together in it, on one line.
+pub(crate) fn code(text: &str) -> String {
+    let text = text.replace(['\n', '\r'], " ");
+    let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(longest + 1);
+    let room = if text.starts_with('`') || text.ends_with('`') { " " } else { "" };
+    format!("{fence}{room}{text}{room}{fence}")
+}
+
 /// Text in a paragraph or a cell of Markdown: no markup, no links, no HTML, one line.
 pub(crate) fn markdown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

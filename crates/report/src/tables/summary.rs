@@ -1,10 +1,10 @@
 //! `summary.md`: the answer and the table, for a CI step summary or a pull request.
 
-use super::escape::markdown;
-use crate::gate::GateCard;
+use super::escape::{code, markdown};
+use crate::gate::{ACCEPT, GateCard, MEASURE};
 use crate::numbers::free_score_about;
 use crate::words::{Comparison, Sentence, Span, answer, plain_line};
-use crate::{Measured, Scorecard};
+use crate::{AdapterCard, Measured, Scorecard};
 use umbrage_metrics::Verdict;
 
 /// Step summaries above 1 MiB are cut off entirely; room is left for what others write there.
@@ -12,6 +12,9 @@ const MOST_BYTES: usize = 900 * 1024;
 
 /// Failures that are written out.
 const MOST_FAILURES: usize = 30;
+
+/// Notes that are written out.
+const MOST_NOTES: usize = 20;
 
 /// Columns: metric id and head.
 const COLUMNS: [(&str, &str); 6] = [
@@ -46,7 +49,28 @@ pub(crate) fn summary(card: &Scorecard, gate: Option<&GateCard>) -> String {
         p.frames,
         p.seeds,
     );
+    text += &notes(card);
     text + &facts
+}
+
+/// What a reader of another program's frames must know: how the cameras were checked, what a format's steps do.
+fn notes(card: &Scorecard) -> String {
+    if card.provenance.adapter.device_type != AdapterCard::ELSEWHERE {
+        return String::new();
+    }
+    let all = card.provenance.notes.iter().chain(card.windows.iter().flat_map(|w| &w.notes));
+    let mut said: Vec<&String> = Vec::new();
+    for note in all {
+        if !said.contains(&note) {
+            said.push(note);
+        }
+    }
+    let more = said.len().saturating_sub(MOST_NOTES);
+    let mut text: String = said.iter().take(MOST_NOTES).map(|n| format!("\n- {}", markdown(n))).collect();
+    if more > 0 {
+        text += &format!("\n- {more} more notes are on the page");
+    }
+    text + "\n"
 }
 
 /// What the gate says, the failures first.
@@ -57,7 +81,12 @@ fn verdict(gate: &GateCard) -> String {
         let head = format!("{}, {}: {}", case.place(), case.variant, case.sentence());
         text += &format!("- {}\n", markdown(&head));
         for line in case.details(gate) {
-            text += &format!("  - {}\n", markdown(&line));
+            // What is to be copied is not escaped.
+            let copied = [MEASURE, ACCEPT].iter().find_map(|head| Some((head, line.strip_prefix(head)?)));
+            text += &match copied {
+                Some((head, command)) => format!("  - {head}{}\n", code(command)),
+                None => format!("  - {}\n", markdown(&line)),
+            };
         }
     }
     if failed.len() > MOST_FAILURES {
@@ -84,7 +113,12 @@ fn spans(sentence: &Sentence, emphasise: bool) -> String {
 /// As many rows as fit.
 fn table(card: &Scorecard, most_bytes: usize) -> String {
     let all = Comparison { card, window: None };
-    let heads: Vec<&str> = COLUMNS.iter().map(|c| c.1).collect();
+    let crawls = card.metrics.iter().any(|m| m.id == "swimming" && m.name.contains("edge crawl"));
+    let head = |(id, head): (&'static str, &'static str)| match id {
+        "swimming" if crawls => "SWIMMING with edge crawl",
+        _ => head,
+    };
+    let heads: Vec<&str> = COLUMNS.into_iter().map(head).collect();
     let mut text = format!(
         "\n| variant | {} | GPU ms | |\n|---|{}---:|---|\n",
         heads.join(" | "),

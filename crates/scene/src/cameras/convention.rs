@@ -105,6 +105,30 @@ pub struct Convention {
 }
 
 impl Axis {
+    /// The other way along the same axis.
+    pub fn flipped(self) -> Self {
+        match self {
+            Self::PlusX => Self::MinusX,
+            Self::MinusX => Self::PlusX,
+            Self::PlusY => Self::MinusY,
+            Self::MinusY => Self::PlusY,
+            Self::PlusZ => Self::MinusZ,
+            Self::MinusZ => Self::PlusZ,
+        }
+    }
+
+    /// As it is written in a file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PlusX => "+x",
+            Self::MinusX => "-x",
+            Self::PlusY => "+y",
+            Self::MinusY => "-y",
+            Self::PlusZ => "+z",
+            Self::MinusZ => "-z",
+        }
+    }
+
     fn vector(self) -> DVec3 {
         match self {
             Self::PlusX => DVec3::X,

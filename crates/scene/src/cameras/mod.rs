@@ -70,6 +70,8 @@ impl CameraFile {
             message: e.to_string(),
         };
         let refuse = |message: String| SceneError::value(path, message);
+        // Some editors begin a file with a byte order mark, which is no JSON.
+        let text = text.trim_start_matches('\u{feff}');
         let any: serde_json::Value = serde_json::from_str(text).map_err(syntax)?;
         let mut cameras: CamerasJson = if any.get("frames").is_some_and(has_transforms) {
             serde_json::from_str::<transforms::Transforms>(text)

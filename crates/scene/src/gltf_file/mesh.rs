@@ -42,6 +42,7 @@ pub(super) fn add(
             None => Vec::new(),
         };
         if layouts[material].is_some() && uvs.is_empty() {
+            // Of a cut-out it is an error: `Model::check`.
             model
                 .notes
                 .push(format!("object '{name}' has a texture but no place in it: its first texel is used"));

@@ -50,14 +50,6 @@ pub enum LightSpec {
     },
 }
 
-/// One light, with or without a head.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum LightFile {
-    Listed { light: Vec<LightSpec> },
-    Bare(LightSpec),
-}
-
 impl LightSpec {
     /// Reads a file that holds one light, written as in a scene file's `[[light]]`: at the top, or in a
     /// table of that name.
@@ -67,19 +59,21 @@ impl LightSpec {
     pub fn read(path: &Path, origin: DVec3) -> Result<AreaLight, SceneError> {
         let read = |source| SceneError::Read { path: path.to_owned(), source };
         let text = std::fs::read_to_string(path).map_err(read)?;
-        let file: LightFile =
-            toml::from_str(&text).map_err(|e| SceneError::value(path, e.to_string().trim_end()))?;
-        let spec = match file {
-            LightFile::Bare(spec) => spec,
-            LightFile::Listed { light } => match light.as_slice() {
-                [only] => *only,
+        let parsed = |e: toml::de::Error| {
+            let cure = "a light is kind = \"sun\", \"disk\", \"rect\" or \"sphere\" with its sizes, as a scene file's [[light]]";
+            SceneError::value(path, format!("{}\n  help: {cure}", e.to_string().trim_end()))
+        };
+        let table: toml::Table = toml::from_str(&text).map_err(parsed)?;
+        let spec: Self = match table.get("light") {
+            None => table.try_into().map_err(parsed)?,
+            Some(toml::Value::Array(all)) => match all.as_slice() {
+                [only] => only.clone().try_into().map_err(parsed)?,
                 all => {
-                    return Err(SceneError::value(
-                        path,
-                        format!("has {} lights: one is scored at a time", all.len()),
-                    ));
+                    let message = format!("has {} lights: one is scored at a time", all.len());
+                    return Err(SceneError::value(path, message));
                 }
             },
+            Some(only) => only.clone().try_into().map_err(parsed)?,
         };
         spec.resolve(origin).map_err(|message| SceneError::value(path, message))
     }

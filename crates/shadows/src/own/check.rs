@@ -64,8 +64,15 @@ impl<'a> Checked<'a> {
         let own = naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32;
         let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), own);
         let info = validator.validate(&module).map_err(|e| {
-            let spans = e.spans().map(|s| s.0).collect();
-            self.error(whole, (spans, chain(e.as_inner())))
+            let spans: Vec<Span> = e.spans().map(|s| s.0).collect();
+            let message = chain(e.as_inner());
+            match spans.iter().any(|s| self.in_file(*s).is_some()) {
+                // Of what a compute pass may not do the validator names the entry point alone, which is ours.
+                false if message.contains("forbidden at this stage") => {
+                    self.at(self.line_of(&STAGE_BOUND), message)
+                }
+                _ => self.error(whole, (spans, message)),
+            }
         })?;
         naga::back::pipeline_constants::process_overrides(&module, &info, None, &self.constants)
             .map_err(|e| self.error(whole, (vec![], chain(&e))))?;
@@ -149,13 +156,37 @@ impl<'a> Checked<'a> {
     }
 }
 
+/// What fragments alone may do.
+const STAGE_BOUND: [&str; 8] = [
+    "discard",
+    "dpdx",
+    "dpdy",
+    "fwidth",
+    "textureSample(",
+    "textureSampleBias",
+    "textureSampleCompare(",
+    "textureQueryLod",
+];
+/// A label may quote all of the source that follows: a word of it will do.
+const LONGEST_LABEL: usize = 80;
+
 fn parsed(source: &str) -> Result<Module, Complaint> {
     naga::front::wgsl::parse_str(source).map_err(|e| {
-        let labels: Vec<&str> = e.labels().map(|l| l.1).filter(|l| !e.message().contains(l)).collect();
+        let short = |text: &str| -> String {
+            let first = text.lines().next().unwrap_or_default();
+            match first.char_indices().nth(LONGEST_LABEL) {
+                Some((end, _)) => format!("{}…", &first[..end]),
+                None if first.len() < text.len() => format!("{first}…"),
+                None => first.into(),
+            }
+        };
+        let message = short(e.message());
+        let labels: Vec<String> =
+            e.labels().map(|l| short(l.1)).filter(|l| !message.contains(l.as_str())).collect();
         let notes: Vec<&str> = e.notes().collect();
         let more = if labels.is_empty() { String::new() } else { format!(" ({})", labels.join("; ")) };
         let notes: String = notes.iter().map(|n| format!("; {n}")).collect();
-        (e.labels().map(|l| l.0).collect(), format!("{}{more}{notes}", e.message()))
+        (e.labels().map(|l| l.0).collect(), format!("{message}{more}{notes}"))
     })
 }
 

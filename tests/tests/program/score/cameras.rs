@@ -31,6 +31,15 @@ fn wrong_cameras_are_refused_by_name() {
         };
         handed.write_cameras("unity.json", "{}", unity);
         refused("unity.json", "read as unity writes them");
+        // A left-handed world, z mirrored, that no preset is: the cure can be copied, and cures.
+        let mirrored = |c: &Camera| {
+            let z = Mat4::from_scale(Vec3::new(1.0, 1.0, -1.0));
+            numbers(z * c.world_from_camera * z)
+        };
+        handed.write_cameras("mirrored.json", "{}", mirrored);
+        refused("mirrored.json", "set \"forward\": \"+z\", \"camera_forward\": \"+z\"");
+        handed.write_cameras("cured.json", "{\"forward\": \"+z\", \"camera_forward\": \"+z\"}", mirrored);
+        handed.score(&format!("--cameras cured.json {way}")).ended_with(0);
         handed.score(&format!("--cameras unity.json --convention unity {way}")).ended_with(0);
         handed.write_cameras("cm.json", "{}", |c| {
             let mut m = c.world_from_camera;
@@ -38,12 +47,17 @@ fn wrong_cameras_are_refused_by_name() {
             numbers(m)
         });
         refused("cm.json", "centimetres");
+        refused("cm.json", "\"units_per_meter\": 100");
         let wide = std::fs::read_to_string(handed.folder().join("cameras.json")).expect("text");
         let yfov = handed.cameras[0].yfov_radians;
         let wrong = format!("\"yfov\": {}", 2.0 * ((0.5 * yfov).tan() * 1.05).atan());
         std::fs::write(handed.folder().join("wide.json"), wide.replace(&format!("\"yfov\": {yfov}"), &wrong))
             .expect("written");
-        refused("wide.json", "vertical field of view of");
+        // The search ends within a hundredth of a degree; masks of 128 samples carry it no further than a tenth.
+        let ran = handed.score(&format!("--cameras wide.json {way}")).ended_with(3);
+        let (_, said) = ran.stderr.split_once("vertical field of view of ").expect("a field of view");
+        let degrees: f32 = said.split(' ').next().and_then(|d| d.parse().ok()).expect("degrees");
+        assert!((degrees - yfov.to_degrees()).abs() < 0.1, "{degrees} for {}", yfov.to_degrees());
         handed.write_cameras("view.json", "{}", |c| numbers(c.world_from_camera.inverse()));
         refused("view.json", "world to camera");
         // Each camera is the one before.
@@ -64,6 +78,24 @@ fn wrong_cameras_are_refused_by_name() {
     std::fs::write(handed.folder().join("sun.toml"), text).expect("written");
     let ran = handed.score(&format!("--cameras cameras.json --light sun.toml {}", WAYS[0])).ended_with(3);
     assert!(ran.stderr.contains("not this light's") && ran.stderr.contains("--light"), "{}", ran.stderr);
+    // A sun five degrees off, whose direction the frames tell; and one twice as large, which may be the technique's.
+    let sun_of = |direction: Vec3, degrees: f32| {
+        let vector: [f32; 3] = direction.into();
+        let text =
+            format!("kind = \"sun\"\nangular_diameter_degrees = {degrees}\ndirection_to_light = {vector:?}");
+        std::fs::write(handed.folder().join("other.toml"), text).expect("written");
+    };
+    let umbrage_scene::AreaLight::Sun { angular_diameter_radians: size, .. } = scene.lights[0] else {
+        panic!("the colonnade stands in the sun")
+    };
+    sun_of(glam::Quat::from_rotation_y(5.0f32.to_radians()) * sun, size.to_degrees());
+    for way in WAYS {
+        let ran = handed.score(&format!("--cameras cameras.json --light other.toml {way}")).ended_with(3);
+        ran.says("not this light's").says("elevation").says("--light");
+    }
+    sun_of(sun, 4.0 * size.to_degrees());
+    let ran = handed.score(&format!("--cameras cameras.json --light other.toml {}", WAYS[0])).ended_with(0);
+    ran.says("its penumbrae are those of a light of 0.25 times the size");
     // The depth itself may be in other units, or a depth buffer's: linear depth d of a near plane at .1 m is .1 / d there.
     let depth_as = |stem: &str, change: &dyn Fn(f32) -> f32| {
         for number in 0..COUNT {

@@ -32,6 +32,10 @@ fn nothing_without_cameras_passes_in_silence() {
     }
     let line = "score --frames mine.####.exr --reference-frames shadow.####.exr --out run";
     let ran = run(&mut umbrage(handed.folder(), line)).ended_with(0);
+    // Truth as `umbrage reference` writes it will do, whatever the frames' channel is called.
+    std::fs::remove_file(handed.folder().join("truth.0002.exr")).expect("removed");
+    let own = line.replace("shadow.####", "truth.####") + " --channel shadow.V";
+    run(&mut umbrage(handed.folder(), &own)).ended_with(0);
     ran.says("shadow.####.exr: frames 2 are missing").says("mine.####.exr: frames 1 repeat the one before");
     std::fs::remove_file(handed.folder().join("mine.0003.exr")).expect("removed");
     run(&mut umbrage(handed.folder(), line)).ended_with(4).says("1 of 4 frames are missing: 3");
@@ -74,6 +78,8 @@ fn bad_frames_are_named() {
     ];
     broken(0, &written(&odd), 4, &["left.A, right.A", "--channel"]);
     broken(2, &original[1], 4, &["frames 1 and 2 are the same picture", "px between them"]);
+    // A frame that comes again later.
+    broken(4, &original[1], 4, &["frames 1 and 4 are the same picture"]);
     // A header that promises a gigapixel is refused before memory is asked for.
     let mut huge = original[0].clone();
     let at = huge.windows(10).position(|w| w == b"dataWindow").expect("a header")

@@ -176,6 +176,23 @@ fn a_ratio_of_pictures_is_a_shadow() {
     let swapped =
         line.replace("lit.####", "x").replace("bright.####", "lit.####").replace("x.exr", "bright.####.exr");
     handed.score(&swapped).ended_with(4).says("the other way round");
+    handed
+        .score(&line.replace("bright.####", "lit.####"))
+        .ended_with(2)
+        .says("--frames and --unshadowed at once");
+    // Another exposure, and an ambient light that holds too much.
+    for number in 0..COUNT {
+        for (from, stem, by) in [("bright", "exposed", 1.25), ("bright", "flood", 1.0)] {
+            let file = |stem: &str| handed.folder().join(format!("{stem}.{number:04}.exr"));
+            let mut layers = read_exr(&file(from)).expect("read");
+            layers.iter_mut().for_each(|l| l.1 = l.1.map(|v| v * by));
+            write_exr(&file(stem), &layers).expect("written");
+        }
+    }
+    // Lit points: (.35 - .05) / (1.25 * .35 - .05) = .774, and (.45 - .05) / (1.25 * .45 - .05) = .78.
+    handed.score(&line.replace("bright.####", "exposed.####")).ended_with(4).says("have a median of 0.77");
+    let flooded = line.replace("dim.####", "flood.####").replace("bright.####", "exposed.####");
+    handed.score(&flooded).ended_with(4).says("less light than --ambient alone");
     // A picture is not taken for a shadow.
     for number in 0..COUNT {
         let file = |stem: &str| -> PathBuf { handed.folder().join(format!("{stem}.{number:04}.exr")) };
@@ -207,5 +224,19 @@ fn pngs_need_their_curve_and_show_their_floor() {
     let card = Card::load(&handed.folder().join("run"));
     assert!(card.results()[0].2["error"]["value"].as_f64().expect("ERROR") < 0.012);
     let notes = card.windows()[0]["notes"].to_string();
-    assert!(notes.contains("8 bits make an error of"), "{notes}");
+    assert!(notes.contains("8 bits make an error of") && !notes.contains("levels between"), "{notes}");
+    let summary = std::fs::read_to_string(handed.folder().join("run/summary.md")).expect("a summary");
+    assert!(
+        summary.contains("8 bits make an error of") && summary.contains("SWIMMING with edge crawl"),
+        "{summary}"
+    );
+    // Eight steps of grey are bands.
+    for number in 0..COUNT {
+        let file = handed.folder().join(format!("grey_{number}.png"));
+        let mut grey = image::open(&file).expect("read").into_luma8();
+        grey.pixels_mut().for_each(|p| p.0[0] = (f32::from(p.0[0]) / 36.0).round() as u8 * 36);
+        grey.save(handed.folder().join(format!("few_{number}.png"))).expect("written");
+    }
+    let few = "--cameras cameras.json --frames few_#.png --transfer linear --no-projection-check";
+    handed.score(few).ended_with(0).says("levels between umbra and light: its bands are the format's");
 }

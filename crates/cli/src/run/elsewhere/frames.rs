@@ -50,12 +50,7 @@ impl Frames {
     pub(crate) fn find(args: &ScoreArgs) -> Result<Self, CliError> {
         let mut subjects: Vec<Subject> = Vec::new();
         for given in &args.frames {
-            let (name, pattern, is_named) = match given.split_once('=') {
-                Some((name, pattern)) if !name.is_empty() && !name.contains(['/', '\\']) => {
-                    (name.into(), pattern, true)
-                }
-                _ => (name_of(given), given.as_str(), false),
-            };
+            let (name, pattern, is_named) = named(given);
             if !is_named && subjects.iter().any(|s| s.name == name) {
                 return Err(CliError::Usage(format!(
                     "several --frames are called \"{name}\": are they takes of one variant, or two? Say NAME=PATTERN"
@@ -82,6 +77,15 @@ impl Frames {
             bits: None,
             deterministic: args.deterministic,
         };
+        let unshadowed = frames.unshadowed.as_ref().map(|u| &u.files);
+        if let Some(same) =
+            frames.subjects.iter().flat_map(|s| &s.takes).find(|t| Some(&t.files) == unshadowed)
+        {
+            return Err(CliError::Usage(format!(
+                "{} is --frames and --unshadowed at once: give the pictures without shadows there",
+                same.pattern
+            )));
+        }
         let first = Picture::read(frames.first_file())?;
         if first.bits.is_none() && args.transfer.is_some() {
             return Err(CliError::Usage(format!(
@@ -149,11 +153,14 @@ impl Frames {
     /// without cameras.
     pub(crate) fn repeated(&self, reference: &NumberedFiles) -> Result<Vec<String>, CliError> {
         let mut notes = Vec::new();
-        let takes = self.subjects.iter().flat_map(|s| &s.takes);
-        for sequence in takes.chain([reference]) {
+        let takes = self.subjects.iter().flat_map(|s| &s.takes).map(|take| (take, false));
+        for (sequence, is_truth) in takes.chain([(reference, true)]) {
             let (mut last, mut same) = (None, Vec::new());
             for &number in reference.files.keys() {
-                let picture = Some(self.mask(sequence, number)?.image);
+                let picture = Some(match is_truth {
+                    true => self.truth(sequence, number)?,
+                    false => self.mask(sequence, number)?.image,
+                });
                 if picture == last {
                     same.push(number);
                 }
@@ -168,6 +175,17 @@ impl Frames {
             }
         }
         Ok(notes)
+    }
+
+    /// A true frame: its channel may have another name than that of the frames.
+    pub(crate) fn truth(&self, reference: &NumberedFiles, number: u32) -> Result<Image<f32>, CliError> {
+        let (path, picture) = self.read(reference, number)?;
+        let found = picture.shadow(None).or_else(|_| picture.shadow(self.channel.as_deref()));
+        let image =
+            self.light(&picture, found.map_err(|message| CliError::Frame { path: path.clone(), message })?);
+        check_finite(&path, &image)?;
+        check_range(&path, &image)?;
+        Ok(image)
     }
 
     /// A subject's mask in a take and frame.
@@ -224,6 +242,14 @@ impl Frames {
             if all <= dark { f32::NAN } else { (with.at(x, y) - ambient) / all }
         };
         let image = Image::from_fn(width, height, ratio);
+        let darker = image.pixels().iter().filter(|v| **v < -0.1).count();
+        if darker * 50 > image.pixels().len() {
+            let message = format!(
+                "{darker} pixels have less light than --ambient alone: is it of another exposure, or does it hold the light that \
+                 is scored?"
+            );
+            return Err(CliError::Frame { path: path.into(), message });
+        }
         // Noise takes single pixels over 1; pictures that were swapped take whole shadows there.
         let brighter = image.pixels().iter().filter(|v| **v > 1.5).count();
         if brighter * 50 > image.pixels().len() {
@@ -287,6 +313,21 @@ impl Frames {
         }
         Ok((path.clone(), picture))
     }
+}
+
+/// "NAME=PATTERN", or a pattern that names itself; and whether it was named.
+fn named(given: &str) -> (String, &str, bool) {
+    match given.split_once('=') {
+        Some((name, pattern)) if !name.is_empty() && !name.contains(['/', '\\']) => {
+            (name.into(), pattern, true)
+        }
+        _ => (name_of(given), given, false),
+    }
+}
+
+/// The variant that a `--frames` belongs to.
+pub(crate) fn subject_name(given: &str) -> String {
+    named(given).0
 }
 
 /// What is bright in a picture; 0 where nothing has light.

@@ -4,6 +4,7 @@ use glam::{DVec3, Mat4, Vec3};
 use umbrage_scene::{Camera, CameraFile, Convention, Preset};
 
 /// Cameras with one mistake taken back.
+#[derive(Clone)]
 pub(super) struct Guess {
     pub(super) cameras: Vec<Camera>,
     /// Frames later by so many.
@@ -44,7 +45,11 @@ pub(super) fn guesses(given: &[Camera], aspect: f32, file: Option<(&CameraFile, 
         file.into_iter().flat_map(|(file, origin)| of_conventions(file, origin)).collect();
     all.extend(of_pictures(given));
     all.extend(of_lenses(given, aspect));
-    all.extend(of_places(given));
+    match file {
+        Some((file, origin)) => all.extend(of_axes(file, origin)),
+        None => all.extend(of_places(given)),
+    }
+    all.extend(of_matrices(given));
     all.extend(of_depth(given));
     all
 }
@@ -82,41 +87,62 @@ fn of_pictures(given: &[Camera]) -> Vec<Guess> {
         flip([true, true], "with the pictures turned by half a turn"),
         later(1, "with each frame's camera taken from the next frame (off by one)"),
         later(-1, "with each frame's camera taken from the frame before (off by one)"),
+        later(2, "with each frame's camera taken from the next but one (off by two)"),
+        later(-2, "with each frame's camera taken from the last but one (off by two)"),
     ]
 }
 
-/// Finer steps near 1, where a sensor's size or an aspect ratio was rounded.
-const SCALES: [f32; 14] = [0.5, 0.667, 0.8, 0.9, 0.95, 0.98, 0.99, 1.01, 1.02, 1.05, 1.1, 1.25, 1.5, 2.0];
+/// Fields of view from a fifth to five times the given one's tangent.
+const LENSES: std::ops::RangeInclusive<i32> = -14..=14;
+const LENS_STEP: f32 = 0.115;
+/// Golden sections: a step of .23 becomes one of 1e-4, a pixel in ten thousand.
+const SECTIONS: usize = 16;
+
+fn with_lens(given: &[Camera], by: f32) -> Vec<Camera> {
+    let lens = |c: &Camera| Camera { yfov_radians: 2.0 * ((0.5 * c.yfov_radians).tan() * by).atan(), ..*c };
+    given.iter().map(lens).collect()
+}
+
+/// The field of view that leaves least unexplained.
+pub(super) fn lens(given: &[Camera], left: impl Fn(&Guess) -> f64) -> Option<Guess> {
+    let of = |log: f32| left(&Guess::new(with_lens(given, log.exp()), "", ""));
+    let coarse = LENSES.map(|k| (k as f32 * LENS_STEP, of(k as f32 * LENS_STEP)));
+    let (middle, _) = coarse.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let golden = 0.5 * (5.0f32.sqrt() - 1.0);
+    let (mut low, mut high) = (middle - LENS_STEP, middle + LENS_STEP);
+    let mut inner = [high - golden * (high - low), low + golden * (high - low)].map(|at| (at, of(at)));
+    for _ in 0..SECTIONS {
+        if inner[0].1 < inner[1].1 {
+            high = inner[1].0;
+            let at = high - golden * (high - low);
+            inner = [(at, of(at)), inner[0]];
+        } else {
+            low = inner[0].0;
+            let at = low + golden * (high - low);
+            inner = [inner[1], (at, of(at))];
+        }
+    }
+    let best = if inner[0].1 < inner[1].1 { inner[0].0 } else { inner[1].0 };
+    let cameras = with_lens(given, best.exp());
+    let degrees = |cameras: &[Camera]| cameras.first().map_or(0.0, |c| c.yfov_radians.to_degrees());
+    let words = format!(
+        "with a vertical field of view of {:.2} degrees in place of {:.2}",
+        degrees(&cameras),
+        degrees(given)
+    );
+    Some(Guess::new(
+        cameras,
+        words,
+        "give the vertical field of view, in radians, of the picture as it was written",
+    ))
+}
 
 fn of_lenses(given: &[Camera], aspect: f32) -> Vec<Guess> {
-    let scaled = |by: f32| -> Vec<Camera> {
-        let lens =
-            |c: &Camera| Camera { yfov_radians: 2.0 * ((0.5 * c.yfov_radians).tan() * by).atan(), ..*c };
-        given.iter().map(lens).collect()
-    };
-    let degrees = |cameras: &[Camera]| cameras.first().map_or(0.0, |c| c.yfov_radians.to_degrees());
-    let mut all: Vec<Guess> = SCALES
-        .iter()
-        .map(|&by| {
-            let cameras = scaled(by);
-            let words = format!(
-                "with a vertical field of view of {:.2} degrees in place of {:.2}",
-                degrees(&cameras),
-                degrees(given)
-            );
-            Guess::new(
-                cameras,
-                words,
-                "give the vertical field of view, in radians, of the picture as it was written",
-            )
-        })
-        .collect();
-    all.push(Guess::new(
-        scaled(1.0 / aspect),
+    vec![Guess::new(
+        with_lens(given, 1.0 / aspect),
         "with the field of view taken for the horizontal one",
         "\"yfov\" is the vertical field of view: 2 atan(tan(x / 2) height / width)",
-    ));
-    all
+    )]
 }
 
 fn of_places(given: &[Camera]) -> Vec<Guess> {
@@ -133,7 +159,6 @@ fn of_places(given: &[Camera]) -> Vec<Guess> {
     let half = std::f32::consts::PI;
     vec![
         Guess::new(placed(&farther(0.01)), "with the cameras' places in centimetres", units),
-        Guess::new(placed(&farther(100.0)), "with the scene in centimetres and the cameras in metres", units),
         Guess::new(placed(&farther(0.001)), "with the cameras' places in millimetres", units),
         Guess::new(
             placed(&mirrored(Vec3::new(-1.0, 1.0, 1.0))),
@@ -165,12 +190,91 @@ fn of_places(given: &[Camera]) -> Vec<Guess> {
             "with cameras that look along their +z",
             "set \"camera_forward\" of the convention",
         ),
+    ]
+}
+
+/// Whatever the convention is.
+fn of_matrices(given: &[Camera]) -> Vec<Guess> {
+    let placed = |place: &dyn Fn(Mat4) -> Mat4| -> Vec<Camera> {
+        given.iter().map(|c| Camera { world_from_camera: place(c.world_from_camera), ..*c }).collect()
+    };
+    let farther = |m: Mat4| Mat4 { w_axis: (m.w_axis.truncate() * 100.0).extend(1.0), ..m };
+    vec![
+        Guess::new(
+            placed(&farther),
+            "with the scene in centimetres and the cameras in metres",
+            "give the scene in metres (of a scene.toml: its model's scale), or set \"units_per_meter\" to .01",
+        ),
         Guess::new(
             placed(&|m: Mat4| m.inverse()),
             "with the matrices taken for world to camera",
             "write the camera's place in the world: the inverse of a view matrix",
         ),
     ]
+}
+
+/// The file's convention with one mistake in it taken back; the cure is what to write there.
+fn of_axes(file: &CameraFile, origin: DVec3) -> Vec<Guess> {
+    let c = file.convention;
+    let (right, up, forward) = (c.right.flipped(), c.up.flipped(), c.forward.flipped());
+    let (camera_right, camera_up, camera_forward) =
+        (c.camera_right.flipped(), c.camera_up.flipped(), c.camera_forward.flipped());
+    let all = [
+        (
+            "the cameras' places in centimetres",
+            Convention { units_per_meter: 100.0 * c.units_per_meter, ..c },
+        ),
+        (
+            "the cameras' places in millimetres",
+            Convention { units_per_meter: 1000.0 * c.units_per_meter, ..c },
+        ),
+        ("the other handedness (x mirrored)", Convention { right, camera_right, ..c }),
+        ("the other handedness (z mirrored)", Convention { forward, camera_right, ..c }),
+        (
+            "the other handedness (z mirrored) and cameras that look along their +z, as Direct3D's",
+            Convention { forward, camera_forward, ..c },
+        ),
+        (
+            "the other handedness (x mirrored) and cameras that look along their +z",
+            Convention { right, camera_forward, ..c },
+        ),
+        ("the scene turned by half a turn about its up axis", Convention { right, forward, ..c }),
+        ("z up in the cameras' world", Convention { up: forward, forward: c.up, ..c }),
+        ("y up in the cameras' world", Convention { up: c.forward, forward: up, ..c }),
+        ("cameras that look the other way", Convention { camera_right, camera_forward, ..c }),
+        (
+            "cameras whose y points down and that look along their +z (OpenCV, COLMAP)",
+            Convention { camera_up, camera_forward, ..c },
+        ),
+    ];
+    let guess = |(words, convention): (&str, Convention)| {
+        // What mirrors pictures is no camera.
+        let cameras = file.cameras(&convention, origin).ok()?;
+        let cameras = cameras.iter().map(|c| c.camera).collect();
+        Some(Guess::new(cameras, format!("with {words}"), written(&c, &convention)))
+    };
+    all.into_iter().filter_map(guess).collect()
+}
+
+/// "set "right": "-x" of the convention".
+fn written(given: &Convention, wanted: &Convention) -> String {
+    let axes = |c: &Convention| {
+        [
+            ("right", c.right),
+            ("up", c.up),
+            ("forward", c.forward),
+            ("camera_right", c.camera_right),
+            ("camera_up", c.camera_up),
+            ("camera_forward", c.camera_forward),
+        ]
+    };
+    let changed = axes(given).into_iter().zip(axes(wanted)).filter(|(a, b)| a.1 != b.1);
+    let mut all: Vec<String> =
+        changed.map(|(_, (name, axis))| format!("\"{name}\": \"{}\"", axis.name())).collect();
+    if given.units_per_meter != wanted.units_per_meter {
+        all.push(format!("\"units_per_meter\": {}", wanted.units_per_meter));
+    }
+    format!("set {} in the file's \"convention\"", all.join(", "))
 }
 
 /// The file's numbers read as other engines write them.

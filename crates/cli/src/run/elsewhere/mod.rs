@@ -1,15 +1,18 @@
 //! Frames of another program: truth for their cameras, the pixel reading of METRICS section 2, and the same
 //! report as of our own variants.
 
+mod asked;
 mod frames;
 mod guesses;
+mod lights;
 mod panel;
 mod projection;
 mod windows;
 mod without_cameras;
 mod words;
 
-pub(crate) use frames::Frames;
+pub(crate) use frames::{Frames, subject_name};
+pub(crate) use words::nobody;
 
 use super::measure::Measured;
 use super::{Scored, pictures, scorecard, sums, window};
@@ -19,9 +22,9 @@ use crate::error::CliError;
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::suite::{BASIS_SAMPLES, Sampling, WINDOW};
+use asked::Shown;
 use frames::listed;
 use guesses::guesses;
-use projection::Shown;
 use std::path::PathBuf;
 use umbrage_metrics::Bootstrap;
 use umbrage_reference::{Cache, Finder, Tracer, TruthGpu};

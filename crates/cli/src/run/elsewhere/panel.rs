@@ -7,10 +7,21 @@ use crate::run::measure::{Measured, reduced};
 use crate::run::window::Window;
 use crate::run::{extras, pictures};
 use umbrage_frame::{Image, NumberedFiles};
-use umbrage_metrics::Panel;
+use umbrage_metrics::{Panel, Region};
 
 /// A mean motion below this many pixels between frames leaves a hard shadow's picture as it was.
 const MOVES: f32 = 1.0;
+/// A soft shadow's picture changes somewhere with any motion that can be seen.
+const MOVES_SOFT: f32 = 0.05;
+/// Pixels of half shadow that make a picture soft.
+const SOFT: usize = 100;
+/// Fully lit points are lit: a median farther from 1 is another scale, of a ratio another exposure.
+const LIT_NOTED: f32 = 0.02;
+const LIT_REFUSED: f32 = 0.1;
+/// Fewer lit points say nothing.
+const FEWEST_LIT: usize = 100;
+/// An integer format that shows fewer levels between umbra and light makes bands that are seen.
+const FEW_LEVELS: usize = 32;
 
 /// Takes the points out of the window where a ratio of pictures says nothing (no light to be in shadow of).
 pub(super) fn leave_out_the_undefined(
@@ -50,10 +61,10 @@ pub(super) fn measure(
     let mut panel =
         Panel { points, frames: count, seeds, values: Vec::with_capacity(points * count * seeds) };
     let mut shown = None;
-    let mut last: Vec<blake3::Hash> = Vec::new();
+    let mut before: Vec<Vec<Option<blake3::Hash>>> = Vec::new();
     for (frame, &number) in numbers.iter().enumerate() {
         let pixels = window.anchors.pixels_in(&window.frames[frame].0);
-        let mut hashes = Vec::new();
+        let (mut hashes, mut is_soft) = (Vec::new(), false);
         for take in &subject.takes {
             let mask = frames.mask(take, number)?.image;
             let value = |pixel: &Option<u32>| {
@@ -62,13 +73,16 @@ pub(super) fn measure(
             };
             panel.values.extend(pixels.iter().map(value));
             hashes.push(hash(&mask));
+            is_soft |= mask.pixels().iter().filter(|v| (0.02..0.98).contains(*v)).count() >= SOFT;
             if frame == window.middle() && shown.is_none() {
                 shown = Some(mask);
             }
         }
-        check_repeated(window, (frame, numbers), (subject, &last, &hashes))?;
-        last = hashes;
+        let moves = if is_soft { MOVES_SOFT } else { MOVES };
+        check_repeated(window, (frame, numbers, moves), (subject, &before, &hashes))?;
+        before.push(hashes);
     }
+    check_lit(window, (frames, numbers), (subject, &panel))?;
     let truth = window.pixel_truth.as_ref().unwrap_or(&window.truth);
     let middle = window.middle();
     let sharp = (panel.frame(middle), window.truth.frame(middle));
@@ -81,6 +95,9 @@ pub(super) fn measure(
     let shown = shown.unwrap_or_else(|| Image::filled(frames.size.0, frames.size.1, 0.0));
     let shown = shown.map(|v| if v.is_finite() { *v } else { 0.0 });
     numbers.extras.extend(extras::of_picture(window, &shown));
+    if let Some(note) = few_levels(frames, &shown) {
+        window.notes.push(format!("{}: {note}", subject.name));
+    }
     let floor = frames.quantisation(panel.values.iter().copied());
     if let Some(floor) = floor {
         window.notes.push(format!(
@@ -94,49 +111,99 @@ pub(super) fn measure(
     Ok(Measured { numbers, pictures })
 }
 
-/// Two frames that are one picture, while the camera moves, or two takes that are one.
+/// Two frames of a window that are one picture, while the camera moves, or two takes that are one.
 fn check_repeated(
     window: &Window,
-    (frame, numbers): (usize, &[u32]),
-    (subject, last, hashes): (&Subject, &[blake3::Hash], &[blake3::Hash]),
+    (frame, numbers, moves): (usize, &[u32], f32),
+    (subject, before, hashes): (&Subject, &[Vec<Option<blake3::Hash>>], &[Option<blake3::Hash>]),
 ) -> Result<(), CliError> {
     let refuse = |take: usize, message: String| {
         Err(CliError::Frame { path: subject.takes[take].pattern.clone().into(), message })
     };
-    if let Some(take) = (1..hashes.len()).find(|&t| hashes[..t].contains(&hashes[t])) {
+    if let Some(take) = (1..hashes.len()).find(|&t| hashes[t].is_some() && hashes[..t].contains(&hashes[t])) {
         let message = format!(
             "frame {} is the same picture as in another take: takes must differ in noise",
             numbers[frame]
         );
         return refuse(take, message);
     }
-    let repeated = hashes.iter().zip(last).position(|(now, before)| now == before);
-    match repeated {
-        Some(take) if motion(window, frame) > MOVES => refuse(
-            take,
-            format!(
-                "frames {} and {} are the same picture, but the camera moves by {:.1} px between them",
-                numbers[frame - 1],
-                numbers[frame],
-                motion(window, frame)
-            ),
-        ),
-        _ => Ok(()),
+    for (earlier, others) in before.iter().enumerate() {
+        let same = hashes.iter().zip(others).position(|(now, then)| now.is_some() && now == then);
+        let Some(take) = same else { continue };
+        let motion = motion(window, (earlier, frame));
+        if motion > moves {
+            let message = format!(
+                "frames {} and {} are the same picture, but the camera moves by {motion:.2} px between them: write each frame \
+                 anew",
+                numbers[earlier], numbers[frame]
+            );
+            return refuse(take, message);
+        }
     }
+    Ok(())
 }
 
-/// Mean motion of the anchors from the frame before, in pixels.
-fn motion(window: &Window, frame: usize) -> f32 {
-    let (before, now) = (&window.frames[frame - 1].0, &window.frames[frame].0);
+/// Mean motion of the anchors between two frames, in pixels.
+fn motion(window: &Window, (before, now): (usize, usize)) -> f32 {
+    let (before, now) = (&window.frames[before].0, &window.frames[now].0);
     let moved = |&p: &glam::Vec3| Some(before.project(p)?.distance(now.project(p)?));
     let all: Vec<f32> = window.anchors.position.iter().filter_map(moved).collect();
     all.iter().sum::<f32>() / all.len().max(1) as f32
 }
 
-fn hash(mask: &Image<f32>) -> blake3::Hash {
+/// What truth says is fully lit shows the scale of a mask, and of a ratio whether its pictures are of one exposure.
+fn check_lit(
+    window: &mut Window,
+    (frames, numbers): (&Frames, &[u32]),
+    (subject, panel): (&Subject, &Panel),
+) -> Result<(), CliError> {
+    let lit = (0..panel.points).filter(|&p| window.tiling.regions[p] == Region::Lit);
+    let all = lit.flat_map(|p| (0..panel.frames).map(move |f| f * panel.points * panel.seeds + p));
+    let mut values: Vec<f32> = all.filter_map(|i| panel.values.get(i).copied()).collect();
+    if values.len() < FEWEST_LIT {
+        return Ok(());
+    }
+    values.sort_unstable_by(f32::total_cmp);
+    let median = values[values.len() / 2];
+    if (median - 1.0).abs() <= LIT_NOTED {
+        return Ok(());
+    }
+    let ratio = frames.unshadowed.is_some();
+    let cause = if ratio {
+        "--unshadowed or --ambient of another exposure or frame"
+    } else {
+        "a mask of another scale"
+    };
+    let message = format!(
+        "frames {} to {}: points that are fully lit have a median of {median:.3}, not 1: {cause}?",
+        numbers[0],
+        numbers[numbers.len() - 1]
+    );
+    if ratio && (median - 1.0).abs() > LIT_REFUSED {
+        return Err(CliError::Frame { path: subject.takes[0].pattern.clone().into(), message });
+    }
+    window.notes.push(format!("{}: {message}", subject.name));
+    Ok(())
+}
+
+/// Of an integer format, how few levels a penumbra has.
+fn few_levels(frames: &Frames, shown: &Image<f32>) -> Option<String> {
+    frames.bits?;
+    let between = shown.pixels().iter().filter(|v| (0.01..0.99).contains(*v));
+    let levels: std::collections::BTreeSet<u32> = between.map(|v| v.to_bits()).collect();
+    (!levels.is_empty() && levels.len() < FEW_LEVELS)
+        .then(|| format!("only {} levels between umbra and light: its bands are the format's", levels.len()))
+}
+
+/// Nothing of a picture that is the same everywhere: it may be right in every frame.
+fn hash(mask: &Image<f32>) -> Option<blake3::Hash> {
+    let first = mask.pixels().first()?;
+    if mask.pixels().iter().all(|v| v == first) {
+        return None;
+    }
     let mut hasher = blake3::Hasher::new();
     mask.pixels().iter().for_each(|v| {
         hasher.update(&v.to_bits().to_le_bytes());
     });
-    hasher.finalize()
+    Some(hasher.finalize())
 }

@@ -15,7 +15,7 @@ pub(super) const NOTE: &str = "frames without cameras: per-frame scores only; no
 
 /// One frame: its pixels are points of a plane, a metre a pixel.
 pub(super) fn window(frames: &Frames, reference: &NumberedFiles, number: u32) -> Result<Window, CliError> {
-    let truth = frames.mask(reference, number)?.image;
+    let truth = frames.truth(reference, number)?;
     let (width, height) = frames.size;
     let view = View {
         width,

@@ -51,7 +51,7 @@ fn file_name(pattern: &str) -> String {
 }
 
 /// No adapter rendered this: baselines of such frames are a class of their own.
-fn nobody() -> AdapterCard {
+pub(crate) fn nobody() -> AdapterCard {
     AdapterCard {
         name: "another program".into(),
         driver: String::new(),
