@@ -121,6 +121,38 @@ fn a_missing_picture_is_an_error_where_it_cuts_and_a_note_where_it_colours() {
     assert!(notes.iter().any(|note| note.contains("a leaf.png")), "{notes:?}");
 }
 
+/// Without a place the picture's first texel would decide about all of the surface.
+#[test]
+fn a_cut_out_without_texture_coordinates_is_an_error() {
+    let mut bare = document();
+    bare["meshes"][0]["primitives"][0]["attributes"]
+        .as_object_mut()
+        .expect("attributes")
+        .remove("TEXCOORD_0");
+    let error = load(&bare).map(|_| ()).expect_err("no place").to_string();
+    for part in ["leaf.gltf", "'leaf'", "no texture coordinates", "TEXCOORD"] {
+        assert!(error.contains(part), "{error}");
+    }
+    // A colour may be taken from anywhere, with a note; and a factor alone needs no place.
+    bare["materials"][0]["alphaMode"] = json!("OPAQUE");
+    let notes = load(&bare).expect("a scene").notes;
+    assert!(notes.iter().any(|note| note.contains("first texel")), "{notes:?}");
+    bare["materials"][0] =
+        json!({ "alphaMode": "MASK", "pbrMetallicRoughness": { "baseColorFactor": [1.0, 1.0, 1.0, 0.2] } });
+    load(&bare).expect("a scene that is not there, but said to be");
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).expect("written");
+    file("leaf.mtl", b"newmtl leaf\nmap_d leaf.png\n");
+    file("leaf.png", &png());
+    let corners = "mtllib leaf.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 1 1\nusemtl leaf\n";
+    for faces in ["f 1 2 3\n", "f 1/1 2/1 3/1\nf 2 4 3\n"] {
+        file("leaf.obj", format!("{corners}{faces}").as_bytes());
+        let error = Scene::load(&folder.path().join("leaf.obj")).map(|_| ()).expect_err(faces).to_string();
+        assert!(error.contains("leaf.obj") && error.contains("no texture coordinates"), "{error}");
+    }
+}
+
 #[test]
 fn texture_transforms_scale_turn_and_move() {
     let mut document = document();

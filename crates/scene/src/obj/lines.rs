@@ -1,7 +1,8 @@
 //! The lines of an OBJ file as tobj is to see them: counted, joined where one continues, and
 //! without what is not used here. tobj reads through this, so that an error has a line number.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 use std::io::{self, BufRead, Read};
 
 /// What was met so far; shared with whoever started the reading.
@@ -11,6 +12,10 @@ pub(super) struct Counts {
     pub(super) lines: Cell<usize>,
     /// Faces of more than four corners.
     pub(super) polygons: Cell<usize>,
+    /// Materials of faces whose corners have no place in a picture, and the line of the first: tobj would give
+    /// them the first place of the file.
+    pub(super) bare: RefCell<BTreeMap<String, usize>>,
+    material: RefCell<String>,
 }
 
 /// Serves one rewritten line at a time.
@@ -79,11 +84,19 @@ impl<'a> Lines<'a> {
             "f" => {
                 let corners: Vec<&str> = rest.split_whitespace().map(|c| self.corner(c)).collect();
                 self.counts.polygons.set(self.counts.polygons.get() + usize::from(corners.len() > 4));
+                if self.kept == Kept::Pictures && corners.iter().any(|c| !c.contains('/')) {
+                    let material = self.counts.material.borrow().clone();
+                    self.counts.bare.borrow_mut().entry(material).or_insert(self.counts.lines.get());
+                }
                 format!("f {}", corners.join(" "))
             }
             "vt" if self.kept == Kept::Pictures => format!("vt {}", texture_coordinates(rest)),
             "o" | "g" => format!("{keyword} {rest}"),
-            "usemtl" | "mtllib" if !rest.is_empty() => format!("{keyword} {rest}"),
+            "usemtl" if !rest.is_empty() => {
+                *self.counts.material.borrow_mut() = rest.to_owned();
+                format!("usemtl {rest}")
+            }
+            "mtllib" if !rest.is_empty() => format!("{keyword} {rest}"),
             _ => String::new(),
         }
     }

@@ -12,7 +12,7 @@ mod lines;
 mod tests;
 
 use crate::model::{Model, Object};
-use crate::{Material, SceneError};
+use crate::{AlphaMask, Material, SceneError};
 use glam::{Vec2, Vec3};
 use lines::{Counts, Kept, Lines};
 use std::cell::RefCell;
@@ -54,7 +54,21 @@ pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Model, SceneError> {
     let materials = materials.map(|material| library::material(material, folder, &mut notes));
     let materials = materials.collect::<Result<Vec<_>, _>>();
     let materials = materials.map_err(|message| SceneError::value(path, message))?;
+    check_places(&materials, &counts).map_err(|message| SceneError::value(path, message))?;
     Ok(model_from(models, materials, notes))
+}
+
+/// A cut-out without places in its picture would be there or not as the picture's first texel happens to be.
+fn check_places(materials: &[Material], counts: &Counts) -> Result<(), String> {
+    let bare = counts.bare.borrow();
+    let cut = materials.iter().filter(|m| m.mask.as_ref().is_some_and(AlphaMask::varies));
+    match cut.filter_map(|m| Some((&m.name, bare.get(&m.name)?))).next() {
+        None => Ok(()),
+        Some((name, line)) => Err(format!(
+            "material '{name}' is cut out by a picture, but the face in line {line} has no texture coordinates (vt): export them, \
+             or take map_d out"
+        )),
+    }
 }
 
 /// One more material, grey, stands in wherever the file names none or one that was not found.
