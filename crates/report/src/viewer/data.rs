@@ -33,6 +33,7 @@ struct Window<'a> {
     width: u32,
     height: u32,
     swim_limit: f32,
+    cell_limits: BTreeMap<&'static str, f32>,
     cameras: &'a [[f32; 16]],
 }
 
@@ -99,6 +100,7 @@ fn window<'a>(
         width,
         height,
         swim_limit: book.swim_limits.get(&index).copied().unwrap_or(1.0),
+        cell_limits: planes.cell_limits.get(&index).cloned().unwrap_or_default(),
         cameras: planes.cameras.get(&index).map_or(&[], Vec::as_slice),
     }
 }
