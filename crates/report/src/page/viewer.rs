@@ -16,7 +16,7 @@ pub(super) fn section(planes: &Planes) -> Markup {
                     kbd { "?" } " for the keys."
                 }
                 noscript { p.empty { "The viewer needs JavaScript; the pictures below do not." } }
-                div.viewer hidden { (choices()) (stage()) (looks()) (transport()) (findings()) (help()) }
+                div.viewer hidden { (choices()) (stage()) (looks()) (transport(planes)) (findings()) (help()) }
             }
         }
     }
@@ -53,8 +53,10 @@ fn stage() -> Markup {
             }
             span.tag.left {}
             span.tag.right {}
+            p.refusal role="status" hidden {}
         }
         div.legends {}
+        div.captions {}
     }
 }
 
@@ -72,7 +74,7 @@ fn looks() -> Markup {
     }
 }
 
-fn transport() -> Markup {
+fn transport(planes: &Planes) -> Markup {
     html! {
         p.no-time.muted hidden {}
         div.transport hidden {
@@ -87,6 +89,10 @@ fn transport() -> Markup {
             p.note {
                 "Frames show each variant at the surface points of the middle frame, its pattern as a game ships it. "
                 "Where a variant has no stored frames, its middle frame is shown."
+                @if planes.beside.is_none() {
+                    " In this single file frames are in steps of 1/512, and those of variants as printed are left out; "
+                    code { "--report dir" } " keeps all of them as they are."
+                }
             }
             div.wide.swimming {}
         }
@@ -105,6 +111,14 @@ fn findings() -> Markup {
                         thead { tr { th scope="col" { "variant" } th scope="col" { "shadow" } th scope="col" { "error" } th scope="col" { "swim" } } }
                         tbody {}
                     } }
+                    div.tile-scores hidden {
+                        h4.tile-name {}
+                        p.note { "ERROR is a root (visibility); its parts are in millionths (visibility squared). Estimates without error scatter about 0." }
+                        p.note.no-penumbra hidden { "This tile has no penumbra: nothing is scored in it." }
+                        div.wide tabindex="0" role="region" aria-label="Scores of every variant in this tile" {
+                            table.plain { thead { tr {} } tbody {} }
+                        }
+                    }
                 }
             }
             figure.point hidden {
@@ -116,7 +130,10 @@ fn findings() -> Markup {
 }
 
 const KEYS: [(&str, &str); 17] = [
-    ("1 – 9", "a variant into the right slot, in the order of the table"),
+    (
+        "1 – 9, shift-0 – 9",
+        "a variant into the right slot, in the order of the table; with shift the 10th to the 19th",
+    ),
     ("R", "the truth into the left slot"),
     ("D", "difference: right minus left"),
     ("F", "flip: hold for the right picture (or point at it)"),
@@ -126,10 +143,17 @@ const KEYS: [(&str, &str); 17] = [
     ("G", "grid of tiles"),
     ("space", "play, pause"),
     (",  .", "a frame back, on"),
-    ("P", "follow the point under the cursor, or let it go"),
+    (
+        "P",
+        "follow the point under the cursor: it stays in the middle while the camera moves; again to let it go",
+    ),
     ("M", "move the camera, or hold it still"),
     ("arrows", "cursor by a pixel; with shift by ten"),
-    ("+  −  0", "zoom in, out, whole picture; the wheel zooms once the picture has been clicked"),
+    (
+        "+  −  0",
+        "zoom in, out, whole picture; the wheel zooms once the picture has been clicked. From 8 times on pixels have borders and \
+         numbers with as many digits as fit; the line of colour bars says in what steps",
+    ),
     ("double click, drag", "zoom in, pan"),
     ("Esc", "back to the middle frame; closes this"),
     ("?", "these keys"),

@@ -4,6 +4,7 @@
 mod browser;
 #[path = "../fixture/mod.rs"]
 mod fixture;
+mod layers;
 
 use browser::Browser;
 use fixture::{Device, scorecard};
@@ -53,11 +54,11 @@ fn on_screen(browser: &mut Browser, x: u32, y: u32) -> [f64; 2] {
     [place[0].as_f64().expect("x"), place[1].as_f64().expect("y")]
 }
 
-/// The grey that is drawn at a place of the screen.
+/// The grey of the pixel whose centre is at a place of the screen: its lower right corner, where neither border nor number is.
 fn grey_at(browser: &mut Browser, [x, y]: [f64; 2]) -> f64 {
     let value = browser.eval(&format!(
         "(() => {{ const c = document.querySelector('.stage canvas'), b = c.getBoundingClientRect(); \
-         return c.getContext('2d').getImageData({x} - b.left, {y} - b.top, 1, 1).data[0]; }})()"
+         return c.getContext('2d').getImageData({x} + 3.2 - b.left, {y} + 3.2 - b.top, 1, 1).data[0]; }})()"
     ));
     value.as_f64().expect("a grey")
 }

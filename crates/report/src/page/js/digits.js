@@ -1,0 +1,60 @@
+// The numbers in pixels: as many digits as fit.
+
+// Smallest letters, in pixels of the screen: below, no font has legible digits.
+const SMALLEST = 8.5;
+const LARGEST = 13;
+// Width of a letter of a monospaced font, of its size.
+const ADVANCE = 0.6;
+
+const minus = (v) => (v < 0 ? "−" : "+");
+const bare = (v, digits) => Math.abs(v).toFixed(digits).replace(/^0/, "");
+
+// From long to short: [letters, text of a value, what it says].
+function forms(kind, { low, high }) {
+  const limit = Math.max(Math.abs(low), high);
+  const digits = Math.max(2, Math.min(5, 1 - Math.floor(Math.log10(limit))));
+  const full = {
+    shadow: [3, (v) => (v >= 0.995 ? "1" : bare(v, 2))],
+    depth: [5, (v) => v.toFixed(2)],
+  }[kind] ?? (low < 0 ? [digits + 2, (v) => minus(v) + bare(v, digits)] : [digits + 1, (v) => bare(v, digits)]);
+  const steps = (letters) => {
+    const unit = 10 ** (Math.ceil(Math.log10(limit) - 1e-9) - letters);
+    const text = (v) => {
+      const count = Math.round(Math.abs(v) / unit);
+      return count < 10 ** letters ? String(count) : "+";
+    };
+    const sign = low < 0 ? "without sign, " : "";
+    return [letters, text, `${sign}in steps of ${Number(unit.toPrecision(1))}; + is ${10 ** letters} or more`];
+  };
+  return [[...full, ""], steps(2), steps(1)];
+}
+
+// The form that fits into a pixel of `zoom` pixels of the page: {text(v), says, size}; null where none does.
+export function fitting(kind, scale, zoom, ratio) {
+  if (kind === "region") return null;
+  for (const [letters, text, says] of forms(kind, scale)) {
+    const size = Math.min(LARGEST, (zoom - 1) / (ADVANCE * letters), 1.12 * zoom);
+    if (size >= SMALLEST / ratio) return { text: (v) => (v === undefined || Number.isNaN(v) ? "" : text(v)), says, size };
+  }
+  return null;
+}
+
+const sprites = new Map();
+
+// A number as a small picture: drawn ten thousand times, text itself is too slow.
+export function sprite(text, { size, ratio, light }) {
+  const key = `${text}/${size}/${ratio}/${light}`;
+  if (sprites.has(key)) return sprites.get(key);
+  if (sprites.size > 1500) sprites.clear();
+  const canvas = document.createElement("canvas");
+  const [width, height] = [Math.ceil((text.length * ADVANCE * size + 3) * ratio), Math.ceil((size + 3) * ratio)];
+  [canvas.width, canvas.height] = [width, height];
+  const ctx = canvas.getContext("2d");
+  ctx.font = `${size * ratio}px ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospace`;
+  // Without an outline: the colour around a small number has to be seen.
+  [ctx.textAlign, ctx.textBaseline, ctx.fillStyle] = ["center", "middle", light ? "#fff" : "#000"];
+  ctx.fillText(text, width / 2, height / 2 + 0.5);
+  const made = { canvas, width: width / ratio, height: height / ratio };
+  sprites.set(key, made);
+  return made;
+}
