@@ -5,6 +5,7 @@ use crate::book::Book;
 use crate::picture::{HATCH, Ramp};
 use crate::plot::Look;
 use crate::trace::Trace;
+use crate::words::swim_caveat;
 use crate::{MetricCard, Scorecard};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -43,6 +44,8 @@ struct Variant<'a> {
     label: &'static str,
     id: String,
     class: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    swim_caveat: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -61,6 +64,7 @@ pub(crate) fn describe(card: &Scorecard, book: &Book, planes: &Planes, trace: &[
         label: of.calibration.label(),
         id: format!("{}/{}", of.name, of.calibration.id()),
         class: Look::of(card, v).class(),
+        swim_caveat: swim_caveat(card, v),
     };
     let hex = |ramp: Ramp| {
         let levels = usize::from(ramp.levels());

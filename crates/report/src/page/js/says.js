@@ -1,7 +1,8 @@
 // What stands on and under the stage: names, refusals, colour bars, captions.
 import { regionColour } from "./colour.js";
 import { captionOf, unitOf } from "./captions.js";
-import { REGIONS, labelOf, lacksFrame } from "./layers.js";
+import { data } from "./planes.js";
+import { REGIONS, labelOf, lacksFrame, variantOf } from "./layers.js";
 import { state } from "./state.js";
 
 const BARS = { shadow: "shadow", error: "error" };
@@ -44,6 +45,13 @@ function legend({ kind, scale, form, tiled, isDifference }) {
   return make("span", "scale", end(scale.low), bar, `${end(scale.high)} ${unitOf(kind)}${tiled ? ", by tile" : ""}${numbers}`);
 }
 
+// Of frames from elsewhere, where it moves.
+function caveat({ id, kind }) {
+  const moves = kind === "swim" || kind === "swimming" || kind.endsWith("_moving");
+  const says = moves ? data.variants[variantOf(id)]?.swim_caveat : undefined;
+  return says ? ` ${says}.` : "";
+}
+
 // `drawn`: the layers on the stage.
 export function says(root, mode, drawn) {
   tags(root, mode);
@@ -52,6 +60,6 @@ export function says(root, mode, drawn) {
   refusal.hidden = !refusal.textContent;
   const shown = drawn.filter((d, i) => !d.refused && drawn.findIndex((o) => o.kind === d.kind) === i);
   root.querySelector(".legends").replaceChildren(...shown.map(legend));
-  const caption = (d) => (d.isDifference ? "Difference, right minus left: blue is less, red is more, white is the same." : captionOf(d.kind, !d.tiled));
+  const caption = (d) => (d.isDifference ? "Difference, right minus left: blue is less, red is more, white is the same." : captionOf(d.kind, !d.tiled) + caveat(d));
   root.querySelector(".captions").replaceChildren(...shown.map((d) => make("p", "", caption(d))));
 }
