@@ -1,9 +1,11 @@
 //! The viewer's frame: the script fills it. Without a script the pictures below are what there is.
 
+use crate::Scorecard;
 use crate::viewer::Planes;
+use crate::words::any_swim_caveat;
 use maud::{Markup, PreEscaped, html};
 
-pub(super) fn section(planes: &Planes) -> Markup {
+pub(super) fn section(card: &Scorecard, planes: &Planes) -> Markup {
     html! {
         section #viewer {
             h2 { "Viewer" }
@@ -16,7 +18,7 @@ pub(super) fn section(planes: &Planes) -> Markup {
                     kbd { "?" } " for the keys."
                 }
                 noscript { p.empty { "The viewer needs JavaScript; the pictures below do not." } }
-                div.viewer hidden { (choices()) (stage()) (looks()) (transport(planes)) (findings()) (help()) }
+                div.viewer hidden { (choices()) (stage()) (looks()) (transport(card, planes)) (findings()) (help()) }
             }
         }
     }
@@ -74,7 +76,7 @@ fn looks() -> Markup {
     }
 }
 
-fn transport(planes: &Planes) -> Markup {
+fn transport(card: &Scorecard, planes: &Planes) -> Markup {
     html! {
         p.no-time.muted hidden {}
         div.transport hidden {
@@ -87,7 +89,9 @@ fn transport(planes: &Planes) -> Markup {
                 (button("still", "As shown", "Back to the middle frame, as a game shows it (Escape)"))
             }
             p.note {
-                "Frames show each variant at the surface points of the middle frame, its pattern as a game ships it. "
+                "Frames show each variant at the surface points of the middle frame, "
+                @if card.provenance.adapter.rendered_here() { "its pattern as a game ships it. " } @else { "as its program rendered it, read at pixels. " }
+                @if let Some(caveat) = any_swim_caveat(card) { (caveat) ". " }
                 "Where a variant has no stored frames, its middle frame is shown."
                 @if planes.beside.is_none() {
                     " In this single file frames are in steps of 1/512, and those of variants as printed are left out; "
@@ -111,19 +115,19 @@ fn findings() -> Markup {
                         thead { tr { th scope="col" { "variant" } th scope="col" { "shadow" } th scope="col" { "error" } th scope="col" { "swim" } } }
                         tbody {}
                     } }
-                    div.tile-scores hidden {
-                        h4.tile-name {}
-                        p.note { "ERROR is a root (visibility); its parts are in millionths (visibility squared). Estimates without error scatter about 0." }
-                        p.note.no-penumbra hidden { "This tile has no penumbra: nothing is scored in it." }
-                        div.wide tabindex="0" role="region" aria-label="Scores of every variant in this tile" {
-                            table.plain { thead { tr {} } tbody {} }
-                        }
-                    }
                 }
             }
             figure.point hidden {
                 figcaption { strong { "This point over the frames" } p { "The line in its band is the truth with twice its standard error; colours are those of the table. A calm variant is a level line." } }
                 svg.plot viewBox="0 0 620 250" role="img" {}
+            }
+            div.tile-scores hidden {
+                h3.tile-name {}
+                p.note { "ERROR is a root (visibility); its parts are in millionths (visibility squared). Estimates of no error scatter about 0." }
+                p.note.no-penumbra hidden { "This tile has no penumbra: nothing is scored in it." }
+                div.wide tabindex="0" role="region" aria-label="Scores of every variant in this tile" {
+                    table.plain { thead { tr {} } tbody {} }
+                }
             }
         }
     }

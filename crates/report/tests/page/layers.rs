@@ -1,4 +1,4 @@
-//! The layers of the viewer, and what stands on and under them.
+//! The layers of the viewer, what stands on and under them, and how they are reached.
 
 use super::browser::Browser;
 use super::{CHSS, SIZE, on_screen, page, picture};
@@ -129,9 +129,11 @@ fn pixels_have_numbers_from_eight_times_on_and_say_in_what_steps() {
     );
     browser.key("-");
     assert!(!says(&mut browser).contains("numbers"), "below eight times there are none");
-    browser.key("+");
-    browser.key("+");
+    for _ in 0..3 {
+        browser.key("+");
+    }
     assert!(!says(&mut browser).contains("numbers"), ".42 fits as it is");
+    browser.key("-");
     choose(&mut browser, "left", &format!("v{CHSS}-error"));
     let error = says(&mut browser);
     assert!(error.contains("numbers without sign, in steps of"), "{error}");
@@ -178,4 +180,43 @@ fn a_file_says_which_frames_it_leaves_out() {
     browser.key(".");
     assert!(!text(&mut browser, ".tag.right").contains("no frames"));
     assert!(!text(&mut browser, ".transport .note").contains("1/512"));
+}
+
+#[test]
+#[ignore = "needs a browser: cargo xtask page"]
+fn every_variant_has_a_key() {
+    let (_run, mut browser) = page(Layout::SingleFile);
+    let right = |browser: &mut Browser| browser.eval("document.querySelector('select.right').value");
+    browser.key("9");
+    assert_eq!(right(&mut browser), "v8-shadow");
+    for (digit, written, variant) in [(0, ")", 9), (1, "!", 10), (4, "$", 13)] {
+        browser.shifted(digit, written);
+        assert_eq!(right(&mut browser), format!("v{variant}-shadow"), "shift and {digit}");
+    }
+    // A layout that writes plus there means plus.
+    let zoom = "Number(document.querySelector('.stage').dataset.zoom)";
+    let before = browser.eval(zoom).as_f64().expect("a zoom");
+    browser.shifted(1, "+");
+    assert!(browser.eval(zoom).as_f64().is_some_and(|now| now > 1.9 * before));
+}
+
+#[test]
+#[ignore = "needs a browser: cargo xtask page"]
+fn a_ratio_is_what_its_label_says() {
+    let (_run, mut browser) = page(Layout::SingleFile);
+    let relative = |browser: &mut Browser, to: &str| {
+        browser.eval(&format!("(s => {{ s.value = {to:?}; s.dispatchEvent(new Event('change')); }})(document.querySelector('.relative'))"));
+        let cell = "#table tbody[data-variant='4'] td[data-metric=error] button";
+        let label = browser.eval(&format!("document.querySelector(\"{cell}\").ariaLabel"));
+        (text(browser, cell), label.as_str().unwrap_or_default().to_string())
+    };
+    let (absolute, label) = relative(&mut browser, "");
+    assert!(label.contains(&format!("of chss: {absolute}. Where")), "{label}");
+    let (ratio, label) = relative(&mut browser, "0");
+    assert!(
+        ratio.starts_with("× ") && label.contains(&format!("of chss: {ratio} of hard. Where")),
+        "{label}"
+    );
+    let (again, label) = relative(&mut browser, "");
+    assert!(again == absolute && label.contains(&format!("of chss: {absolute}. Where")), "{label}");
 }

@@ -301,3 +301,27 @@ fn planes_beside_the_page_are_read_from_a_disk() {
     }
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
+
+#[test]
+#[ignore = "needs a browser: cargo xtask page"]
+fn long_names_fit_a_narrow_screen() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fixture::write(folder.path(), Device::Software, SIZE).expect("stored");
+    let mut card = scorecard(Device::Software, SIZE);
+    let long = "a_scene_whose_name_has_no_end_".repeat(6);
+    card.windows[0].scene = long.clone();
+    card.windows[0].path = long.clone();
+    card.provenance.suite = long.clone();
+    card.provenance.scenes[0].name = long;
+    card.variants[4].name = "a-variant-whose-name-has-no-end-".repeat(4);
+    card.save(&folder.path().join("scorecard.json")).expect("stored");
+    let written = write_report(folder.path(), Layout::SingleFile).expect("reported");
+    let mut browser = Browser::open(&written.index, (390, 844));
+    browser.eval("document.querySelectorAll('details').forEach(d => d.open = true)");
+    // What is wider than the screen scrolls inside itself; the page does not.
+    let wide = browser.eval(
+        "[...document.querySelectorAll('main *, header *')].filter(e => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest('.wide, .strip-row, pre, select, dialog')).slice(0, 5).map(e => e.outerHTML.slice(0, 90)).join('\\n')",
+    );
+    assert_eq!(wide, "");
+    assert_eq!(browser.eval("document.documentElement.scrollWidth"), 390);
+}

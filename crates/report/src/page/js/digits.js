@@ -33,7 +33,9 @@ function forms(kind, { low, high }) {
 export function fitting(kind, scale, zoom, ratio) {
   if (kind === "region") return null;
   for (const [letters, text, says] of forms(kind, scale)) {
-    const size = Math.min(LARGEST, (zoom - 1) / (ADVANCE * letters), 1.12 * zoom);
+    // Between numbers of several digits there has to be a gap; one digit alone may fill its pixel.
+    const gap = letters > 1 ? 3 : 1;
+    const size = Math.min(LARGEST, (zoom - gap) / (ADVANCE * letters), 1.12 * zoom);
     if (size >= SMALLEST / ratio) return { text: (v) => (v === undefined || Number.isNaN(v) ? "" : text(v)), says, size };
   }
   return null;

@@ -96,13 +96,15 @@ function rows(body, pixel) {
 // Shows a pixel of the middle frame's points; null: nothing. `pinned`: it is the point that is followed.
 export function inspect(root, pixel, pinned) {
   const [list, body] = [root.querySelector("dl"), root.querySelector("tbody")];
+  const tiles = root.parentElement.querySelector(".tile-scores");
   root.querySelector("h3").textContent = pinned ? "At the pinned point" : "At this pixel";
   list.replaceChildren();
   body.replaceChildren();
   root.querySelector(".hint").hidden = pixel !== null;
   root.querySelector(".found").hidden = pixel === null;
+  tiles.hidden = true;
   if (pixel === null) return;
   facts(list, pixel);
   rows(body, pixel);
-  tile(root.querySelector(".tile-scores"), pixel);
+  tile(tiles, pixel);
 }
