@@ -49,13 +49,22 @@ await tab.keyboard.press("m");
 await measure("frames from their own cameras, first round and later ones", () => tab.keyboard.press("."));
 await tab.keyboard.press("Escape");
 await tab.keyboard.press("0");
-const zoomTo = async (least) => { while (Number(await tab.evaluate(() => document.querySelector(".stage").dataset.zoom)) < least) await tab.keyboard.press("+"); };
-await zoomTo(8);
-await drag(`numbers in every pixel, ${await tab.evaluate(() => document.querySelector(".stage").dataset.zoom)} times`);
-await choose("right", "v4-error");
-await drag("the same, an error in the right slot");
-await tab.keyboard.press("d");
-await choose("right", "v2-shadow");
-await choose("left", "v4-shadow");
-await drag("the same, difference of two shadows");
+const zoom = () => tab.evaluate(() => Number(document.querySelector(".stage").dataset.zoom));
+// About the middle of the picture, from the whole of it.
+async function zoomTo(least) {
+  await tab.mouse.move(2, 2);
+  await tab.keyboard.press("0");
+  for (await tab.waitForTimeout(100); (await zoom()) < least; await tab.waitForTimeout(100)) await tab.keyboard.press("+");
+}
+for (const least of [8, 16]) {
+  await choose("left", "truth");
+  await choose("right", "v4-error");
+  await zoomTo(least);
+  await drag(`${await zoom()} times, a number in every pixel, panned`);
+  await tab.keyboard.press("d");
+  await choose("right", "v4-shadow");
+  await zoomTo(least);
+  await drag("the same, a difference");
+  await tab.keyboard.press("s");
+}
 await browser.close();

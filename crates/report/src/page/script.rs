@@ -5,7 +5,7 @@
 //! nothing else of modules is missed.
 
 /// In an order in which none needs a later one.
-const MODULES: [(&str, &str); 21] = [
+const MODULES: [(&str, &str); 22] = [
     ("half", include_str!("js/half.js")),
     ("planes", include_str!("js/planes.js")),
     ("camera", include_str!("js/camera.js")),
@@ -15,6 +15,7 @@ const MODULES: [(&str, &str); 21] = [
     ("layers", include_str!("js/layers.js")),
     ("colour", include_str!("js/colour.js")),
     ("digits", include_str!("js/digits.js")),
+    ("numbers", include_str!("js/numbers.js")),
     ("stage", include_str!("js/stage.js")),
     ("state", include_str!("js/state.js")),
     ("says", include_str!("js/says.js")),

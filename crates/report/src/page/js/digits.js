@@ -4,7 +4,7 @@
 const SMALLEST = 8.5;
 const LARGEST = 13;
 // Width of a letter of a monospaced font, of its size.
-const ADVANCE = 0.6;
+export const ADVANCE = 0.6;
 
 const minus = (v) => (v < 0 ? "−" : "+");
 const bare = (v, digits) => Math.abs(v).toFixed(digits).replace(/^0/, "");
@@ -39,24 +39,4 @@ export function fitting(kind, scale, zoom, ratio) {
     if (size >= SMALLEST / ratio) return { text: (v) => (v === undefined || Number.isNaN(v) ? "" : text(v)), says, size };
   }
   return null;
-}
-
-const sprites = new Map();
-
-// A number as a small picture: drawn ten thousand times, text itself is too slow.
-export function sprite(text, { size, ratio, light }) {
-  const key = `${text}/${size}/${ratio}/${light}`;
-  if (sprites.has(key)) return sprites.get(key);
-  if (sprites.size > 1500) sprites.clear();
-  const canvas = document.createElement("canvas");
-  const [width, height] = [Math.ceil((text.length * ADVANCE * size + 3) * ratio), Math.ceil((size + 3) * ratio)];
-  [canvas.width, canvas.height] = [width, height];
-  const ctx = canvas.getContext("2d");
-  ctx.font = `${size * ratio}px ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospace`;
-  // Without an outline: the colour around a small number has to be seen.
-  [ctx.textAlign, ctx.textBaseline, ctx.fillStyle] = ["center", "middle", light ? "#fff" : "#000"];
-  ctx.fillText(text, width / 2, height / 2 + 0.5);
-  const made = { canvas, width: width / ratio, height: height / ratio };
-  sprites.set(key, made);
-  return made;
 }

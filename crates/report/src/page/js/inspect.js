@@ -1,6 +1,6 @@
 // The inspector: every layer's value at the cursor or the pinned point.
 import { data, has, plane } from "./planes.js";
-import { REGIONS, errorAt, shadowAt, truthAt } from "./layers.js";
+import { REGIONS, errorOf, shadowAt, truthAt } from "./layers.js";
 import { CELLS, cellKinds, hasCells, tileOf, tileScore } from "./cells.js";
 import { positionOf } from "./points.js";
 import { current, middle, state } from "./state.js";
@@ -85,7 +85,7 @@ function rows(body, pixel) {
     const row = body.insertRow();
     header(row, i, v);
     const shadow = shadowAt(state.window, i, state.frame)?.[pixel];
-    const error = errorAt(state.window, i, state.frame)?.[pixel];
+    const error = errorOf(state.window, i, state.frame, pixel);
     const swim = has(state.window, `v${i}-swim`) ? plane(state.window, `v${i}-swim`)?.[0][pixel] : undefined;
     cell(row, digits(shadow), "shadow", shadow);
     cell(row, signed(error), "error", error);

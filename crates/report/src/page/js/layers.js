@@ -56,15 +56,25 @@ export function shadowAt(window, v, frame) {
 
 const errors = new Map();
 
-// Shadow less truth where a point is scored, NaN elsewhere; the still picture's truth is the middle frame's.
-export function errorAt(window, v, frame) {
+// What an error is made of; the still picture's truth is the middle frame's.
+function parts(window, v, frame) {
   const [shadow, truth] = [shadowAt(window, v, frame), truthAt(window, frame ?? middle(window))];
   const region = has(window, "region") ? plane(window, "region")?.[0] : truth;
   if (!shadow || !truth || !region) return null;
+  return { shadow, of: (i) => (region === truth || region[i] > 0 ? shadow[i] - truth[i] : NaN) };
+}
+
+// At one pixel.
+export const errorOf = (window, v, frame, pixel) => parts(window, v, frame)?.of(pixel);
+
+// Shadow less truth where a point is scored, NaN elsewhere.
+export function errorAt(window, v, frame) {
+  const from = parts(window, v, frame);
+  if (!from) return null;
   const key = `${window}/${v}/${frame}`;
   if (!errors.has(key)) {
     if (errors.size > 60) errors.clear();
-    errors.set(key, shadow.map((s, i) => (region === truth || region[i] > 0 ? s - truth[i] : NaN)));
+    errors.set(key, from.shadow.map((_, i) => from.of(i)));
   }
   return errors.get(key);
 }

@@ -1,6 +1,7 @@
 // The stage: one canvas that shows two layers in one of four ways, zoomed and panned together.
-import { isDark, paint } from "./colour.js";
-import { fitting, sprite } from "./digits.js";
+import { paint } from "./colour.js";
+import { fitting } from "./digits.js";
+import { numbers } from "./numbers.js";
 
 const BORDERS_FROM = 8;
 
@@ -105,21 +106,6 @@ function borders(ctx, view, [ox, oy], { x0, x1, y0, y1 }, step) {
   ctx.strokeStyle = step > 1 ? "rgb(61 140 255 / .75)" : "rgb(128 128 128 / .45)";
   ctx.lineWidth = 1;
   ctx.stroke();
-}
-
-// One number a pixel, or a tile of `step` pixels.
-function numbers(ctx, view, [ox, oy], { x0, x1, y0, y1 }, { value, form, step, ratio, size, scale }) {
-  const middle = (from, top) => 0.5 * (from + Math.min(top, from + step));
-  for (let y = y0; y < y1; y += step) {
-    for (let x = x0; x < x1; x += step) {
-      const number = value(x, y);
-      const text = form.text(number);
-      if (!text) continue;
-      const { canvas, width, height } = sprite(text, { size: form.size, ratio, light: isDark(number, scale) });
-      const [cx, cy] = [ox + middle(x, size.width) * view.zoom, oy + middle(y, size.height) * view.zoom];
-      ctx.drawImage(canvas, cx - width / 2, cy - height / 2, width, height);
-    }
-  }
 }
 
 function cross(ctx, view, [ox, oy], { x, y, pinned }) {
