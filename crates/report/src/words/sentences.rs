@@ -115,7 +115,11 @@ fn calmest_and_wildest(all: Comparison, ranked: &[(usize, Score)], name_calmest:
         let text = "no difference in SWIMMING could be resolved; the largest estimate is ";
         return sentence.text(text).number(free_score(size));
     }
-    let verb = if tied.len() == 1 { " swims most, SWIMMING " } else { " swim most, SWIMMING up to " };
+    let verb = match (tied.len(), ranked.len()) {
+        (1, 1) => " swims, SWIMMING ",
+        (1, _) => " swims most, SWIMMING ",
+        _ => " swim most, SWIMMING up to ",
+    };
     sentence.variants(all.card, &tied, 3).text(verb).number(free_score(size))
 }
 

@@ -38,7 +38,7 @@ fn every_cell_is_a_map_with_one_range_for_all_variants() {
         choose(&mut browser, "right", &format!("v{CHSS}-{kind}"));
         let legend = text(&mut browser, ".legends > :last-child");
         assert!(legend.contains("visibility, root, by tile"), "{kind}: {legend}");
-        assert!(text(&mut browser, ".captions p:last-child").contains("over each tile"), "{kind}");
+        assert!(text(&mut browser, ".captions p:last-child").contains("of each tile"), "{kind}");
         choose(&mut browser, "right", &format!("v3-{kind}"));
         assert_eq!(legend, text(&mut browser, ".legends > :last-child"), "one range, {kind}");
     }

@@ -19,7 +19,7 @@ const CAPTIONS = {
 };
 const UNITS = { depth: "m" };
 
-export const captionOf = (kind, pixels) => CAPTIONS[kind] + (kind in CELLS ? (pixels ? " Root of the cell at each point." : " Root of its mean over each tile.") : "");
+export const captionOf = (kind, pixels) => CAPTIONS[kind] + (kind in CELLS ? (pixels ? " Root of the cell at each point; hatched: no penumbra." : " Root of its mean over the penumbra of each tile; hatched: no penumbra in it.") : "");
 export const unitOf = (kind) => UNITS[kind] ?? (kind in CELLS ? "visibility, root" : "visibility");
 
 // Why two layers have no difference; nothing where they have one.
