@@ -70,10 +70,14 @@ fn a_straight_edge_has_its_width_in_metres_and_flat_places_have_none() {
     let truth = PICTURE.truth(g, 0.0, 1);
     let tiling = PICTURE.tiling(&truth);
     let widths = true_widths(&truth, &PICTURE.anchors(), &tiling).expect("widths");
-    // The profile is at 10 and 90 % where u = -+0.687. A pixel is a metre, and a row of one edge has 9 or 10 of them.
+    // The profile is at 10 and 90 % where u = -+0.687. A block of 16 pixels, each a metre, ends in the middle of an
+    // edge: half of the width is 4 or 5 whole pixels, the width 8 or 10. Twice the width would be 19.
     let true_width = 0.687 * width;
-    let told: Vec<f32> = widths.iter().copied().filter(|w| w.is_finite()).collect();
-    assert!(told.len() > 1000 && told.iter().all(|&w| (f64::from(w) - true_width).abs() < 1.0), "{told:?}");
+    let told: Vec<f64> = widths.iter().filter(|w| w.is_finite()).map(|&w| f64::from(w)).collect();
+    assert!(told.len() > 1000 && told.iter().all(|w| (w - true_width).abs() < 2.0), "{told:?}");
+    // Over both halves of many edges that evens out, to a tenth.
+    let mean = told.iter().sum::<f64>() / told.len() as f64;
+    assert!((mean / true_width - 1.0).abs() < 0.1, "{mean} for {true_width}");
     let lit = (0..widths.len()).filter(|&p| tiling.regions[p] != umbrage_metrics::Region::Penumbra);
     assert!(lit.into_iter().all(|p| widths[p].is_nan()));
 }
