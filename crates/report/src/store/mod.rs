@@ -3,13 +3,16 @@
 //! Planes are EXR files of 32-bit floats rounded to 11 significant bits (those of a half float):
 //! the zeroed bits compress away, any EXR viewer opens them, and NaN stays NaN.
 
+mod paths;
 mod read;
 
+pub(crate) use paths::{CellsOf, scorecard_path};
 pub(crate) use read::{read_cells, read_index, read_series, read_truth_series, read_variant, read_window};
 
 use crate::error::{ReportError, write_whole};
 use crate::gate::{CROPS, GATE, SUMS};
 use crate::{SCHEMA_VERSION, Scorecard};
+use paths::{cells_path, series_path, truth_path, truth_series_path, variant_path};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -235,43 +238,6 @@ impl RunWriter {
         let text = text.map_err(|e| ReportError::Contradiction(e.to_string()))?;
         write_whole(&path, text.as_bytes())
     }
-}
-
-/// Where the scorecard of a run lies.
-pub(crate) fn scorecard_path(folder: &Path) -> PathBuf {
-    folder.join("scorecard.json")
-}
-
-/// Files are named by number: names of scenes may hold anything.
-fn truth_path(folder: &Path, window: usize) -> PathBuf {
-    folder.join("pictures").join(format!("window-{window:02}-truth.exr"))
-}
-
-fn variant_path(folder: &Path, window: usize, variant: usize) -> PathBuf {
-    folder.join("pictures").join(format!("window-{window:02}-variant-{variant:02}.exr"))
-}
-
-fn series_path(folder: &Path, window: usize, variant: usize) -> PathBuf {
-    folder.join("pictures").join(format!("window-{window:02}-variant-{variant:02}-frames.exr"))
-}
-
-/// What a map of cells has a value for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CellsOf {
-    Pixels,
-    Tiles,
-}
-
-fn cells_path(folder: &Path, (window, variant): (usize, usize), of: CellsOf) -> PathBuf {
-    let kind = match of {
-        CellsOf::Pixels => "cells",
-        CellsOf::Tiles => "tiles",
-    };
-    folder.join("pictures").join(format!("window-{window:02}-variant-{variant:02}-{kind}.exr"))
-}
-
-fn truth_series_path(folder: &Path, window: usize) -> PathBuf {
-    folder.join("pictures").join(format!("window-{window:02}-truth-frames.exr"))
 }
 
 /// Frames as layers, `t0000.V` first.

@@ -1,9 +1,7 @@
 //! Reads back what a run stored.
 
-use super::{
-    CELLS, CellMaps, CellsOf, PictureIndex, Surface, VariantPictures, WindowPictures, cells_path,
-    series_path, truth_path, truth_series_path, variant_path,
-};
+use super::paths::{CellsOf, cells_path, series_path, truth_path, truth_series_path, variant_path};
+use super::{CELLS, CellMaps, PictureIndex, Surface, VariantPictures, WindowPictures};
 use crate::error::ReportError;
 use std::path::Path;
 use umbrage_frame::{Image, Layer, read_exr};
