@@ -95,8 +95,8 @@ pub use medians::compare_medians;
 pub use paired::{edge_crawl, paired};
 pub use panel::{Panel, PanelTruth};
 pub use pooled::{
-    Member, PooledNumber, SumKind, SumTable, against_sums, block_sums, compare_jointly, value_sums,
-    width_sums,
+    Member, PooledNumber, SumKind, SumTable, against_sums, block_sums, compare_jointly, true_widths,
+    value_sums, width_sums,
 };
 pub use profile::{ProfileTable, Profiles, profiles, window_profiles};
 pub use projection::Projection;

@@ -5,7 +5,7 @@ mod support;
 use support::{Picture, Random, slats};
 use umbrage_metrics::{
     Bootstrap, Member, PooledNumber, SumTable, against_sums, block_sums, compare_jointly, point_maps,
-    width_sums, window_tiles,
+    true_widths, width_sums, window_tiles,
 };
 
 const PICTURE: Picture = Picture { width: 192, height: 128 };
@@ -57,6 +57,29 @@ fn a_kernel_of_one_width_does_not_grow_and_the_truth_does() {
     let fixed = growth(&|x, _| edge(14.0, x));
     // Widths are whole pixels, 8 to 18 of them: a twentieth each.
     assert!(fixed.abs() < 0.15, "{fixed}");
+}
+
+#[test]
+fn a_straight_edge_has_its_width_in_metres_and_flat_places_have_none() {
+    let width = 14.0;
+    let g = |x: f64, _: f64| {
+        let u = ((x.rem_euclid(64.0) - 32.0).abs() - 16.0) / (0.5 * width);
+        let u = u.clamp(-1.0, 1.0);
+        0.5 + (u * (1.0 - u * u).sqrt() + u.asin()) / std::f64::consts::PI
+    };
+    let truth = PICTURE.truth(g, 0.0, 1);
+    let tiling = PICTURE.tiling(&truth);
+    let widths = true_widths(&truth, &PICTURE.anchors(), &tiling).expect("widths");
+    // The profile is at 10 and 90 % where u = -+0.687. A block of 16 pixels, each a metre, ends in the middle of an
+    // edge: half of the width is 4 or 5 whole pixels, the width 8 or 10. Twice the width would be 19.
+    let true_width = 0.687 * width;
+    let told: Vec<f64> = widths.iter().filter(|w| w.is_finite()).map(|&w| f64::from(w)).collect();
+    assert!(told.len() > 1000 && told.iter().all(|w| (w - true_width).abs() < 2.0), "{told:?}");
+    // Over both halves of many edges that evens out, to a tenth.
+    let mean = told.iter().sum::<f64>() / told.len() as f64;
+    assert!((mean / true_width - 1.0).abs() < 0.1, "{mean} for {true_width}");
+    let lit = (0..widths.len()).filter(|&p| tiling.regions[p] != umbrage_metrics::Region::Penumbra);
+    assert!(lit.into_iter().all(|p| widths[p].is_nan()));
 }
 
 #[test]

@@ -37,7 +37,7 @@ pub use gate::{
     BASELINE_VERSION, Baseline, BaselineSums, BaselineWindow, ChangeCard, GateCard, GateCase, MarginCard,
     Margins, SUMS, Side, compare, gated, not_comparable, write_gate_crops,
 };
-pub use store::{RunWriter, Surface, VariantPictures, WindowPictures};
+pub use store::{CELLS, CellMaps, RunWriter, Surface, VariantPictures, WindowPictures};
 pub use write::{Layout, Written, write_report};
 
 // Unit tests read the same made-up run as the tests outside, which know this crate by its name.

@@ -242,3 +242,34 @@ fn a_ratio_shows_its_ends_where_half_a_width_would_mislead() {
     let summary = read(folder.path(), "summary.md");
     assert!(summary.contains("1.02 to 3.3") && !summary.contains("1.1 ± 1.2"), "{summary}");
 }
+
+#[test]
+fn frames_from_elsewhere_claim_no_settings_that_nobody_knows() {
+    let mut card = scorecard(Device::Software, SIZE);
+    for variant in &mut card.variants {
+        variant.calibration = umbrage_report::Calibration::Elsewhere;
+        variant.settings = umbrage_report::SettingsCard::default();
+    }
+    for overall in &mut card.overall {
+        overall.cost_note = Some("no cost: rendered elsewhere".into());
+        overall.scores.insert("noise".into(), Measured::no("one take: noise is in the other cells"));
+    }
+    card.provenance.adapter.device_type = umbrage_report::AdapterCard::ELSEWHERE.into();
+    (card.provenance.shadow_map_texels, card.provenance.seeds) = (0, 1);
+    card.provenance.truth.samples_per_half = 0;
+    let html = read(pages_of(&card).path(), "index.html");
+    let shown = html.split("<script").next().expect("the page before its data");
+    for wrong in
+        ["0 × 0 texels", "<dd></dd>", "no cost: no cost", "measured: no cost", "2 × 0 samples", "1 seeds"]
+    {
+        assert!(!shown.contains(wrong), "{wrong}");
+    }
+    for right in [
+        "unknown: rendered elsewhere",
+        "S = 1 take",
+        "holds the noise of its one take",
+        "No plot: rendered elsewhere.",
+    ] {
+        assert!(shown.contains(right), "{right}");
+    }
+}

@@ -98,6 +98,8 @@ fn the_failure_is_written_down(folder: &Path, worse: &Ran) {
     assert!(folder.join("worse/gate/00.png").exists(), "a picture of the worst place");
     let crop = image::open(folder.join("worse/gate/00.png")).expect("a picture").into_rgb8();
     assert!(crop.pixels().any(|p| p != crop.get_pixel(0, 0)), "and it shows something");
+    // A committed baseline holds no pictures, and the page says what would.
+    assert!(read(folder, "worse/index.html").contains("No picture of before"));
     the_command_measures_just_that(folder, &junit);
 }
 
@@ -121,6 +123,22 @@ fn github_gets_annotations() {
     let lines: Vec<&str> = ran.stdout.lines().collect();
     assert!(!lines.is_empty() && lines.len() <= 10 && lines.iter().all(|l| l.starts_with("::error title=")));
     assert!(!lines[0]["::error title=".len()..].split("::").next().expect("a title").contains(','));
+    before_after_and_truth(folder);
+}
+
+/// Against the folder of a run the picture has three parts, of which the first and the second differ.
+fn before_after_and_truth(folder: &Path) {
+    let two = image::open(folder.join("worse/gate/00.png")).expect("a picture").into_luma8();
+    run(&mut umbrage(folder, "compare good worse")).ended_with(1);
+    let three = image::open(folder.join("worse/gate/00.png")).expect("a picture").into_luma8();
+    // Panels w wide with 6 px between them: 2 w + 6 and 3 w + 12.
+    let width = (two.width() - 6) / 2;
+    assert_eq!(three.width(), 3 * width + 12);
+    let part =
+        |n: u32| image::imageops::crop_imm(&three, n * (width + 6), 0, width, three.height()).to_image();
+    assert!(part(0) != part(1) && part(1) != part(2), "before, after and truth differ");
+    let page = read(folder, "worse/index.html");
+    assert!(page.contains("left to right: before, after (") && !page.contains("No picture of before"));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::shell;
 use std::path::{Path, PathBuf};
 use umbrage_metrics::Verdict;
 use umbrage_report::{
-    AdapterCard, Baseline, GateCard, GateCase, SUMS, Scorecard, compare, write_gate_crops, write_report,
+    AdapterCard, Baseline, GateCard, GateCase, SUMS, compare, write_gate_crops, write_report,
 };
 
 /// `umbrage compare BASE RUN`.
@@ -80,6 +80,7 @@ pub(super) fn check_name(name: &str) -> Result<(), CliError> {
 pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, CliError> {
     let sums = Baseline::load(&run.join(SUMS))?;
     let (baseline, name) = find(base, &sums.provenance.adapter, &args.baselines)?;
+    let place = place_of(base, &sums.provenance.adapter, &args.baselines)?;
     let mut card = compare(&baseline, &sums)?;
     card.baseline = name.clone();
     let folder = match args.baselines.to_str() {
@@ -91,8 +92,9 @@ pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, 
     for case in &mut card.cases {
         case.reproduce = reproduce(case, &provenance.command);
     }
-    let scores = Scorecard::load(&run.join("scorecard.json"))?;
-    write_gate_crops(run, &mut card, &scores)?;
+    // The sums of a run lie beside its pictures; a committed baseline has none.
+    let base_run = place.parent().filter(|_| place.ends_with(SUMS));
+    write_gate_crops(run, base_run, &mut card)?;
     card.save(run)?;
     Ok(card)
 }

@@ -13,7 +13,7 @@ use umbrage_metrics::{
     Measurement, Panel, PanelTruth, PointMaps, SeedSpread, SumTable, TileTable, block_sums, point_maps,
     seed_spread, window_profiles, window_tiles,
 };
-use umbrage_report::VariantPictures;
+use umbrage_report::{CellMaps, VariantPictures};
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
 /// Everything that is kept of a variant in a window.
@@ -46,7 +46,9 @@ impl Measured {
     /// Pictures go to disk one by one; numbers stay.
     pub(super) fn without_pictures(self) -> Self {
         let none = || Image::from_pixels(0, 0, vec![]);
-        Self { pictures: VariantPictures { mask: none(), error: none(), swim: None, series: vec![] }, ..self }
+        let cells = CellMaps::default();
+        let pictures = VariantPictures { mask: none(), error: none(), swim: None, series: vec![], cells };
+        Self { pictures, ..self }
     }
 }
 

@@ -6,8 +6,8 @@ use crate::args::Plant;
 use crate::error::CliError;
 use std::path::Path;
 use umbrage_frame::{Image, write_exr};
-use umbrage_metrics::{Panel, PointMaps, Region};
-use umbrage_report::{Surface, VariantPictures, WindowPictures};
+use umbrage_metrics::{Panel, PointMaps, Region, true_widths};
+use umbrage_report::{CELLS, CellMaps, Surface, VariantPictures, WindowPictures};
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
 /// Pictures up to this size are kept frame by frame: above it a run of a few windows would take
@@ -20,6 +20,8 @@ pub(super) fn window(window: &Window) -> WindowPictures {
     let (view, truth) = (&window.anchors.view, &window.truth);
     let in_frame =
         |frame| move |point: usize| 0.5 * (truth.half(0, frame, point) + truth.half(1, frame, point));
+    // A window whose points do not fit together has no widths, and says so elsewhere.
+    let widths = true_widths(truth, &window.anchors, &window.tiling).ok();
     let surface = Surface {
         depth: spread(&|point| view.depth(window.anchors.position[point])),
         region: spread(&|point| match window.tiling.regions[point] {
@@ -29,6 +31,7 @@ pub(super) fn window(window: &Window) -> WindowPictures {
             Region::Lit => Surface::LIT,
         }),
         truth_error: spread(&|point| truth.variance[point].max(0.0).sqrt()),
+        width: widths.map(|widths| spread(&|point| widths[point])),
         cameras: window.frames.iter().map(|(view, _)| view.clip_from_world.to_cols_array()).collect(),
     };
     let moves = truth.frames > 1 && is_small(window);
@@ -79,7 +82,42 @@ pub(super) fn variant(window: &Window, mask: Image<f32>, maps: &PointMaps) -> Va
     let swim = moves.then(|| window.spread(|point| only_counted(point, maps.swim[point]), f32::NAN));
     // Where nothing is seen there is no shadow to show.
     let mask = window.spread(|point| mask.pixels()[pixel(point)], f32::NAN);
-    VariantPictures { mask, error, swim, series: Vec::new() }
+    VariantPictures { mask, error, swim, series: Vec::new(), cells: cells(window, maps) }
+}
+
+/// Each cell where it lies: by pixel of small pictures, and by tile of all.
+fn cells(window: &Window, maps: &PointMaps) -> CellMaps {
+    let moves = window.frames.len() > 1;
+    let of: [(&[f32], bool); CELLS.len()] = [
+        (&maps.smooth_static, true),
+        (&maps.structured_static, true),
+        (&maps.smooth_moving, moves),
+        (&maps.structured_moving, moves),
+        (&maps.noise, true),
+    ];
+    let in_penumbra = |point: usize| window.tiling.regions[point] == Region::Penumbra;
+    let value = |(map, measured): (&[f32], bool), point: usize| {
+        if measured && in_penumbra(point) { map[point] } else { f32::NAN }
+    };
+    let (width, height) = window.size();
+    let side = window.tiling.tile_px;
+    let tiles = |of| {
+        let mut image = Image::filled(width.div_ceil(side), height.div_ceil(side), f32::NAN);
+        for tile in window.tiling.tiles.iter().filter(|t| !t.penumbra.is_empty()) {
+            let sum: f64 = tile.penumbra.iter().map(|&p| f64::from(value(of, p as usize))).sum();
+            let at = (tile.row * image.width() + tile.column) as usize;
+            image.pixels_mut()[at] = (sum / tile.penumbra.len() as f64) as f32;
+        }
+        image
+    };
+    CellMaps {
+        pixels: of
+            .iter()
+            .filter(|_| is_small(window))
+            .map(|&of| window.spread(|point| value(of, point), f32::NAN))
+            .collect(),
+        tiles: of.into_iter().map(tiles).collect(),
+    }
 }
 
 /// Every frame of the window as EXR, as a game would show it.

@@ -15,8 +15,21 @@ use umbrage_report::{
 };
 use umbrage_shadows::{ConstantBias, Gpu, ReceiverPlane, VariantId};
 
-/// Metrics whose groups and pairs are shown.
-const COMPARED: [Quantity; 4] = [Quantity::Error, Quantity::Banding, Quantity::Swimming, Quantity::Noise];
+/// Metrics whose groups are shown: all that tiles have sums of, and the table has a column for.
+const COMPARED: [Quantity; 10] = [
+    Quantity::Error,
+    Quantity::Banding,
+    Quantity::Swimming,
+    Quantity::Noise,
+    Quantity::SmoothStatic,
+    Quantity::StructuredStatic,
+    Quantity::SmoothMoving,
+    Quantity::StructuredMoving,
+    Quantity::LightLeak,
+    Quantity::FalseShadow,
+];
+/// Those of them whose pairs are kept: of the others the letters will do.
+const PAIRED: [Quantity; 4] = [Quantity::Error, Quantity::Banding, Quantity::Swimming, Quantity::Noise];
 
 /// What was scored.
 pub(super) struct Subjects {
@@ -115,7 +128,8 @@ fn pairs(comparisons: &[(Quantity, Comparisons)], window: Option<usize>) -> Vec<
         difference,
         resolved,
     };
-    comparisons.iter().flat_map(|(q, c)| c.pairs.iter().map(move |pair| card(*q, pair))).collect()
+    let kept = comparisons.iter().filter(|(q, _)| PAIRED.contains(q));
+    kept.flat_map(|(q, c)| c.pairs.iter().map(move |pair| card(*q, pair))).collect()
 }
 
 fn variant_card(id: VariantId, plan: &Plan) -> VariantCard {

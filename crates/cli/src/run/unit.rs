@@ -7,8 +7,8 @@ use super::window::Window;
 use crate::error::CliError;
 use crate::suite::Sampling;
 use std::path::{Path, PathBuf};
-use umbrage_frame::{Image, read_exr, write_exr};
-use umbrage_report::VariantPictures;
+use umbrage_frame::{Image, Layer, read_exr, write_exr};
+use umbrage_report::{CELLS, CellMaps, VariantPictures};
 use umbrage_shadows::{Renderer, Seeding, VariantId};
 
 /// A folder of measured units that may be shared by processes.
@@ -19,6 +19,7 @@ pub(crate) struct Units {
 /// Names of the files of a unit.
 const NUMBERS: &str = "numbers.json";
 const PICTURES: &str = "pictures.exr";
+const TILES: &str = "tiles.exr";
 const CHECKSUM: &str = "checksum";
 
 /// The content that a unit follows from: truth, views (those before the window too), the recorded passes with their shaders and
@@ -89,20 +90,21 @@ impl Units {
     pub(crate) fn read(&self, key: &str) -> Option<Measured> {
         let folder = self.path(key);
         let text = std::fs::read(folder.join(NUMBERS)).ok()?;
-        let picture_bytes = std::fs::read(folder.join(PICTURES)).ok()?;
         let stored = std::fs::read_to_string(folder.join(CHECKSUM)).ok()?;
-        if stored.trim() != checksum(&text, &picture_bytes) {
+        if stored.trim() != checksum(&folder)? {
             return None;
         }
         let numbers: Numbers = serde_json::from_slice(&text).ok()?;
-        let mut layers = read_exr(&folder.join(PICTURES)).ok()?;
-        let mut take = |name: &str| -> Option<Image<f32>> {
-            let place = layers.iter().position(|l| l.0 == name)?;
-            Some(layers.swap_remove(place).1)
+        let [mut layers, mut tiles] =
+            [read_exr(&folder.join(PICTURES)).ok()?, read_exr(&folder.join(TILES)).ok()?];
+        let cells = CellMaps {
+            pixels: CELLS.iter().map_while(|id| take_layer(&mut layers, &cell_name(id))).collect(),
+            tiles: CELLS.iter().map_while(|id| take_layer(&mut tiles, &cell_name(id))).collect(),
         };
+        let mut take = |name: &str| take_layer(&mut layers, name);
         let (mask, error, swim) = (take("visibility.V")?, take("error.V")?, take("swim.V"));
         let series = (0..).map_while(|t| take(&frame_name(t))).collect();
-        let pictures = VariantPictures { mask, error, swim, series };
+        let pictures = VariantPictures { mask, error, swim, series, cells };
         Some(Measured { numbers, pictures })
     }
 
@@ -124,14 +126,18 @@ impl Units {
         std::fs::create_dir_all(folder).ok()?;
         let text = serde_json::to_vec(&unit.numbers).ok()?;
         std::fs::write(folder.join(NUMBERS), &text).ok()?;
-        let VariantPictures { mask, error, swim, series } = &unit.pictures;
+        let VariantPictures { mask, error, swim, series, cells } = &unit.pictures;
         let mut layers =
             vec![("visibility.V".to_string(), mask.clone()), ("error.V".to_string(), error.clone())];
         layers.extend(swim.clone().map(|swim| ("swim.V".to_string(), swim)));
         layers.extend(series.iter().enumerate().map(|(t, frame)| (frame_name(t), frame.clone())));
+        let named = |maps: &[Image<f32>]| {
+            CELLS.iter().zip(maps).map(|(id, map)| (cell_name(id), map.clone())).collect::<Vec<_>>()
+        };
+        layers.extend(named(&cells.pixels));
         write_exr(&folder.join(PICTURES), &layers).ok()?;
-        let pictures = std::fs::read(folder.join(PICTURES)).ok()?;
-        std::fs::write(folder.join(CHECKSUM), checksum(&text, &pictures)).ok()
+        write_exr(&folder.join(TILES), &named(&cells.tiles)).ok()?;
+        std::fs::write(folder.join(CHECKSUM), checksum(folder)?).ok()
     }
 
     fn path(&self, key: &str) -> PathBuf {
@@ -144,8 +150,21 @@ fn frame_name(frame: usize) -> String {
     format!("t{frame:04}.V")
 }
 
-fn checksum(numbers: &[u8], pictures: &[u8]) -> String {
+/// Over all files of a unit; none where one is missing.
+fn checksum(folder: &Path) -> Option<String> {
     let mut hasher = blake3::Hasher::new();
-    hasher.update(&(numbers.len() as u64).to_le_bytes()).update(numbers).update(pictures);
-    hasher.finalize().to_hex().to_string()
+    for name in [NUMBERS, PICTURES, TILES] {
+        let bytes = std::fs::read(folder.join(name)).ok()?;
+        hasher.update(&(bytes.len() as u64).to_le_bytes()).update(&bytes);
+    }
+    Some(hasher.finalize().to_hex().to_string())
+}
+
+fn take_layer(layers: &mut Vec<Layer>, name: &str) -> Option<Image<f32>> {
+    let place = layers.iter().position(|l| l.0 == name)?;
+    Some(layers.swap_remove(place).1)
+}
+
+fn cell_name(id: &str) -> String {
+    format!("{id}.V")
 }

@@ -11,7 +11,7 @@ mod widths;
 pub use against::{against_sums, value_sums};
 pub use blocks::block_sums;
 pub use joint::{Member, compare_jointly};
-pub use widths::width_sums;
+pub use widths::{true_widths, width_sums};
 
 use crate::profile::{PROFILE_SUMS, profile_values, seen_classes};
 use crate::quantity::sums;

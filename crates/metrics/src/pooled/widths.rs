@@ -8,7 +8,7 @@ use super::blocks::blocks;
 use super::{SumTable, add};
 use crate::edges::{Slope, Slopes};
 use crate::tiles::check;
-use crate::{MetricsError, Panel, PanelTruth, PointMaps, Tile, Tiling};
+use crate::{MetricsError, Panel, PanelTruth, PointMaps, Region, Tile, Tiling};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use umbrage_frame::Anchors;
@@ -49,6 +49,53 @@ pub fn width_sums(
     let view = View { maps, truth, tiling, slopes: &slopes };
     let row = |tile: &Tile| (tile.column, tile.row, view.sums(tile));
     Ok(SumTable { rows: tiling.tiles.par_iter().map(row).collect() })
+}
+
+/// The true 10-90 % width in metres at each penumbra point: that of the 16x16 pixels which it lies in. NaN
+/// outside the penumbra, and where too few points of the block rise for a width to be told.
+///
+/// # Errors
+/// Inputs that are not about the same points.
+pub fn true_widths(truth: &PanelTruth, anchors: &Anchors, tiling: &Tiling) -> Result<Vec<f32>, MetricsError> {
+    truth.check(anchors.len())?;
+    crate::error::expect_length("points of the tiling", anchors.len(), tiling.points())?;
+    let slopes = Slopes::new(anchors, &truth.basis, tiling);
+    let g = |point: u32| f64::from(truth.basis[point as usize]);
+    let mut widths = vec![f32::NAN; anchors.len()];
+    for tile in &tiling.tiles {
+        let all: Vec<u32> = tile.points().collect();
+        for block in blocks(&all, tiling, WIDTH_SIDE).values() {
+            let Some(width) = Block::new(block, &slopes, &g).width(&g) else { continue };
+            let inside = block.iter().filter(|&&p| tiling.regions[p as usize] == Region::Penumbra);
+            inside.for_each(|&p| widths[p as usize] = width as f32);
+        }
+    }
+    Ok(widths)
+}
+
+/// The points of a block whose slope is known, and the length of the edge in it.
+struct Block {
+    sloped: Vec<(u32, Slope)>,
+    /// Metres, by the coarea formula.
+    length: f64,
+    /// Points between 10 and 90 %.
+    rising: usize,
+}
+
+impl Block {
+    fn new(block: &[u32], slopes: &Slopes, g: &dyn Fn(u32) -> f64) -> Self {
+        let sloped: Vec<(u32, Slope)> = block.iter().filter_map(|&p| Some((p, slopes.at(p)?))).collect();
+        let length = sloped.iter().map(|(_, s)| s.footprint * s.steepness).sum();
+        let rising = sloped.iter().filter(|(p, _)| WIDTH.contains(&g(*p))).count();
+        Self { sloped, length, rising }
+    }
+
+    /// Area between 10 and 90 % over the length of the edge, in metres.
+    fn width(&self, v: &dyn Fn(u32) -> f64) -> Option<f64> {
+        let inside = self.sloped.iter().filter(|(p, _)| WIDTH.contains(&v(*p)));
+        let width = inside.map(|(_, s)| s.footprint).sum::<f64>() / self.length;
+        (self.rising >= FEWEST && width.is_finite() && width > 0.0).then_some(width)
+    }
 }
 
 struct View<'a> {
@@ -112,16 +159,9 @@ impl View<'_> {
 
     /// Points that rise, and the true and the measured 10-90 % width in metres.
     fn widths(&self, block: &[u32]) -> Option<(f64, f64, f64)> {
-        let sloped: Vec<(u32, Slope)> = block.iter().filter_map(|&p| Some((p, self.slopes.at(p)?))).collect();
-        let area = |v: &dyn Fn(u32) -> f64| {
-            sloped.iter().filter(|(p, _)| WIDTH.contains(&v(*p))).map(|(_, s)| s.footprint).sum::<f64>()
-        };
-        let length: f64 = sloped.iter().map(|(_, s)| s.footprint * s.steepness).sum();
-        let rising = sloped.iter().filter(|(p, _)| WIDTH.contains(&self.g(*p))).count();
-        let areas = [area(&|p| self.g(p)), area(&|p| f64::from(self.maps.mean[p as usize]))];
-        let widths = areas.map(|a| a / length);
-        let told = rising >= FEWEST && widths.iter().all(|w| w.is_finite() && *w > 0.0);
-        told.then_some((rising as f64, widths[0], widths[1]))
+        let of = Block::new(block, self.slopes, &|p| self.g(p));
+        let measured = of.width(&|p| f64::from(self.maps.mean[p as usize]))?;
+        Some((of.rising as f64, of.width(&|p| self.g(p))?, measured))
     }
 }
 

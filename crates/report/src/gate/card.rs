@@ -67,6 +67,9 @@ pub struct GateCase {
     pub reproduce: Option<String>,
     /// A picture of the worst place, in the folder of the run.
     pub crop: Option<String>,
+    /// What it shows, left to right; without "before" where the baseline holds no pictures.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub crop_shows: Vec<String>,
 }
 
 /// See [`Change`].

@@ -151,6 +151,7 @@ pub fn compare(base: &Baseline, run: &Baseline) -> Result<GateCard, ReportError>
                 change: change.map(Into::into),
                 reproduce: None,
                 crop: None,
+                crop_shows: Vec::new(),
             }
         });
     let cases = cases.collect();

@@ -13,4 +13,4 @@ pub use crops::write_gate_crops;
 pub use margins::{MarginCard, Margins, gated};
 
 pub(crate) use card::{ACCEPT, GATE, MEASURE, short, short_up};
-pub(crate) use crops::FOLDER as CROPS;
+pub(crate) use crops::{BEFORE, FOLDER as CROPS};

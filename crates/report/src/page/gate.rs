@@ -1,6 +1,6 @@
 //! What the gate says.
 
-use crate::gate::{ChangeCard, GateCard, GateCase, short, short_up};
+use crate::gate::{BEFORE, ChangeCard, GateCard, GateCase, short, short_up};
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 use umbrage_metrics::Verdict;
@@ -99,7 +99,7 @@ fn table(
             thead { tr {
                 th { "where" } th { "variant" } th { "score" }
                 th.num { "baseline" } th.num { "now" } th.num { "worse by" } th.num { "95 %" }
-                th.num { "margin" } th.num { "would pass at" } th.num { "caught from" } td {}
+                th.num { "margin" } th.num { "would pass at" } th.num { "caught from" } th { "where, how" }
             } }
             tbody {
                 @for (case, c) in cases.iter().take(MOST_QUIET) { tr {
@@ -115,6 +115,14 @@ fn table(
     }
 }
 
+fn shows(case: &GateCase) -> String {
+    match case.crop_shows.is_empty() {
+        // A gate of an older version.
+        true => format!("truth, {}", case.variant),
+        false => case.crop_shows.join(", "),
+    }
+}
+
 fn more(
     (gate, crops): (&GateCard, &BTreeMap<String, String>),
     case: &GateCase,
@@ -125,8 +133,18 @@ fn more(
             Verdict::Regressed => details {
                 summary { "where, how" }
                 @if let Some(source) = case.crop.as_ref().and_then(|file| crops.get(file)) {
-                    @let what = format!("The worst place: truth on the left, {} on the right", case.variant);
+                    @let what = format!("The worst place, left to right: {}", shows(case));
                     figure { img src=(source) alt=(what) loading="lazy"; figcaption { (what) "." } }
+                    @if !case.crop_shows.iter().any(|s| s == BEFORE) {
+                        p.note {
+                            "No picture of before: a committed baseline holds sums, not pictures. Keep the base run's folder, then "
+                            code { "umbrage compare FOLDER RUN" } "."
+                        }
+                    }
+                } @else if case.scene.is_none() {
+                    p.note { "Over all windows there is no one place to show: see its windows." }
+                } @else {
+                    p.note { "No picture: of many that regressed the first are shown, and a run without pictures has none." }
                 }
                 ul { @for line in case.details(gate) { li { (line) } } }
             },

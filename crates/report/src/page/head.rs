@@ -1,6 +1,7 @@
 //! The head: what this page is about, and how far it reaches.
 
 use super::gate::chip;
+use super::provenance::seeds;
 use crate::Scorecard;
 use crate::gate::GateCard;
 use crate::numbers::{free_number, percent};
@@ -42,8 +43,10 @@ pub(super) fn head(card: &Scorecard, gate: Option<&GateCard>) -> Markup {
                     (fact("Driver", html! { (p.adapter.backend) ", " (p.adapter.driver) }))
                 }
                 (fact("Picture", html! { (p.width) " × " (p.height) " px" }))
-                (fact("Window", html! { (p.frames) @if p.frames == 1 { " frame" } @else { " frames" } ", " (p.seeds) " seeds" }))
-                (fact("Truth", html! { "2 × " (p.truth.samples_per_half) " samples a point" }))
+                (fact("Window", html! { (p.frames) @if p.frames == 1 { " frame" } @else { " frames" } ", " (p.seeds) " " (seeds(p)) }))
+                (fact("Truth", html! {
+                    @if p.truth.samples_per_half == 0 { "frames, as given" } @else { "2 × " (p.truth.samples_per_half) " samples a point" }
+                }))
                 (fact("Program", html! { "umbrage " (p.tool_version) }))
                 (fact("Scored", html! { (coverage(card)) }))
                 (fact("Truth's own noise", html! { (noise(card)) }))

@@ -73,7 +73,7 @@ pub(crate) fn page(sources: Sources) -> String {
                     (answers(card))
                     (table::section(card))
                     (cost(card))
-                    (viewer::section(planes))
+                    (viewer::section(card, planes))
                     (scenes::section(card, book))
                     (time(card))
                     @if let Some(gate) = gate { (gate::section(gate, crops)) }
@@ -115,7 +115,7 @@ fn cost(card: &Scorecard) -> Markup {
                 div.wide { (plot) }
             } @else {
                 p.empty {
-                    "No plot: " (note) ". "
+                    "No plot: " (note.trim_start_matches("no cost: ")) ". "
                     @if card.provenance.adapter.is_software() {
                         "Times on " (card.provenance.adapter.name) " say how fast this processor imitates a GPU, not "
                         "what a variant costs on one. Run the same command on a machine with a GPU to fill this in; "

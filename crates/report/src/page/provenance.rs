@@ -1,7 +1,7 @@
 //! Everything needed to run it again.
 
 use crate::numbers::number;
-use crate::{Scorecard, VariantCard};
+use crate::{Provenance, Scorecard, VariantCard};
 use maud::{Markup, html};
 
 pub(super) fn section(card: &Scorecard) -> Markup {
@@ -14,17 +14,22 @@ pub(super) fn section(card: &Scorecard) -> Markup {
             button.copy type="button" hidden { "Copy the command" }
             dl.facts {
                 (fact("Adapter", &p.adapter.name))
-                (fact("Driver", &format!("{}, {} ({})", p.adapter.driver, p.adapter.backend, p.adapter.device_type)))
+                @if p.adapter.rendered_here() {
+                    (fact("Driver", &format!("{}, {} ({})", p.adapter.driver, p.adapter.backend, p.adapter.device_type)))
+                }
                 (fact("Program", &format!("umbrage {}", p.tool_version)))
                 (fact("Started", &p.date))
                 (fact("Picture", &format!("{} × {} px, tiles of {} px", p.width, p.height, p.tile_px)))
-                (fact("Window", &format!("T = {} frames, S = {} seeds", p.frames, p.seeds)))
-                (fact("Truth", &format!("{}; 2 × {} samples a point, basis {}", p.truth.method, p.truth.samples_per_half, p.truth.basis_samples)))
-                (fact("Shadow map", &format!("{0} × {0} texels", p.shadow_map_texels)))
+                (fact("Window", &format!("T = {} frames, S = {} {}", p.frames, p.seeds, seeds(p))))
+                (fact("Truth", &truth(p)))
+                @if p.shadow_map_texels > 0 {
+                    (fact("Shadow map", &format!("{0} × {0} texels", p.shadow_map_texels)))
+                } @else {
+                    (fact("Shadow map", "unknown: rendered elsewhere"))
+                }
             }
             @for note in &p.notes { p.note { (note) } }
-            h3 { "Scenes" }
-            div.wide {
+            @if !p.scenes.is_empty() { h3 { "Scenes" } div.wide {
                 table.plain {
                     thead { tr { th { "scene" } th { "light" } th { "shadow map" } th { "content" } th { "notes" } } }
                     tbody {
@@ -36,10 +41,29 @@ pub(super) fn section(card: &Scorecard) -> Markup {
                         }
                     }
                 }
-            }
+            } }
             h3 { "Variants" }
             @for (v, variant) in card.variants.iter().enumerate() { (settings(card, v, variant)) }
         }
+    }
+}
+
+/// What the S of a window counts.
+pub(super) fn seeds(p: &Provenance) -> &'static str {
+    match (p.adapter.rendered_here(), p.seeds) {
+        (true, 1) => "seed",
+        (true, _) => "seeds",
+        (false, 1) => "take",
+        (false, _) => "takes",
+    }
+}
+
+/// Frames that are taken for the truth have no samples.
+fn truth(p: &Provenance) -> String {
+    let t = &p.truth;
+    match t.samples_per_half {
+        0 => t.method.clone(),
+        n => format!("{}; 2 × {n} samples a point, basis {}", t.method, t.basis_samples),
     }
 }
 
@@ -63,7 +87,8 @@ fn settings(card: &Scorecard, v: usize, variant: &VariantCard) -> Markup {
         details.settings {
             summary { strong { (variant.name) } ", " (variant.calibration.label()) ": " (variant.sentence) }
             dl.facts {
-                @for (name, value) in fixed { (fact(name, value)) }
+                // Another program's settings are its own.
+                @for (name, value) in fixed.into_iter().filter(|f| !f.1.is_empty()) { (fact(name, value)) }
                 @for (name, value) in &s.more { (fact(name, value)) }
                 (fact("source", &variant.source))
                 @if let Some(cost) = cost {

@@ -5,7 +5,7 @@ use super::table;
 use crate::book::{Book, Shown, Slot};
 use crate::numbers::{Power, count, free_score_about, number, percent};
 use crate::plot::{Axis, Look, swatch};
-use crate::words::{Comparison, error_caption, plain_line, shadow_caption, swim_caption};
+use crate::words::{Comparison, error_caption, plain_line, shadow_caption, swim_caption, swim_caveat};
 use crate::{Calibration, Measured, ResultCard, Scorecard};
 use maud::{Markup, html};
 
@@ -108,7 +108,7 @@ fn variant(card: &Scorecard, book: &Book, window: usize, v: usize) -> Markup {
             div.strip-row {
                 (figure(shown(Slot::Mask(v)), "Shadow", Some("shadow"), ("0", "1"), html! { (shadow_caption(scores)) }))
                 (figure(shown(Slot::Error(v)), "Signed error", Some("error"), (&format!("−{limit}"), &format!("+{limit}")), html! { (error_caption(scores)) }))
-                (figure(shown(Slot::Swim(v)), "Swim map", Some("swim"), ("0", &swim), html! { (swim_caption(scores)) }))
+                (figure(shown(Slot::Swim(v)), "Swim map", Some("swim"), ("0", &swim), html! { (swim_caption(scores)) @if let Some(caveat) = swim_caveat(card, v) { " " (caveat) "." } }))
             }
         }
     }

@@ -5,15 +5,20 @@
 //! nothing else of modules is missed.
 
 /// In an order in which none needs a later one.
-const MODULES: [(&str, &str); 17] = [
+const MODULES: [(&str, &str); 22] = [
     ("half", include_str!("js/half.js")),
     ("planes", include_str!("js/planes.js")),
     ("camera", include_str!("js/camera.js")),
     ("points", include_str!("js/points.js")),
+    ("cells", include_str!("js/cells.js")),
+    ("captions", include_str!("js/captions.js")),
     ("layers", include_str!("js/layers.js")),
     ("colour", include_str!("js/colour.js")),
+    ("digits", include_str!("js/digits.js")),
+    ("numbers", include_str!("js/numbers.js")),
     ("stage", include_str!("js/stage.js")),
     ("state", include_str!("js/state.js")),
+    ("says", include_str!("js/says.js")),
     ("inspect", include_str!("js/inspect.js")),
     ("series", include_str!("js/series.js")),
     ("viewer", include_str!("js/viewer.js")),

@@ -3,7 +3,7 @@
 use super::columns::{Column, GROUPS, columns};
 use crate::numbers::{Power, free_number, number, with_interval};
 use crate::plot::{Axis, Look, Target, strip, swatch};
-use crate::words::{Comparison, plain_line};
+use crate::words::{Comparison, plain_line, swim_caveat};
 use crate::{Calibration, Measured, Scorecard, VariantCard};
 use maud::{Markup, html};
 use umbrage_metrics::Score;
@@ -16,7 +16,7 @@ pub(super) fn section(card: &Scorecard) -> Markup {
             p.lede {
                 "Each dot is an estimate with its 95 % interval, on its column's own axis (logarithmic where values span "
                 "decades). Less is better everywhere but for the width, where 1 is right. Rows that share a letter in a "
-                "column cannot be told apart there."
+                "column cannot be told apart there (width and FLIP have no paired test, and no letters)."
             }
             div.controls hidden {
                 label { "Filter " input.filter type="search" placeholder="name, document, words" size="24"; }
@@ -136,7 +136,7 @@ fn row(scope: Comparison, v: usize, shared: &[Shared]) -> Markup {
             }
             tr.line {
                 td colspan=(shared.len() + 1 + usize::from(costs)) {
-                    span { (scope.scores(v).map_or_else(|| "not measured".into(), plain_line)) }
+                    span { (scope.scores(v).map_or_else(|| "not measured".into(), plain_line)) @if let Some(caveat) = swim_caveat(scope.card, v) { ". " (caveat) } }
                 }
             }
         }

@@ -1,9 +1,11 @@
 //! The viewer's frame: the script fills it. Without a script the pictures below are what there is.
 
+use crate::Scorecard;
 use crate::viewer::Planes;
+use crate::words::any_swim_caveat;
 use maud::{Markup, PreEscaped, html};
 
-pub(super) fn section(planes: &Planes) -> Markup {
+pub(super) fn section(card: &Scorecard, planes: &Planes) -> Markup {
     html! {
         section #viewer {
             h2 { "Viewer" }
@@ -16,7 +18,7 @@ pub(super) fn section(planes: &Planes) -> Markup {
                     kbd { "?" } " for the keys."
                 }
                 noscript { p.empty { "The viewer needs JavaScript; the pictures below do not." } }
-                div.viewer hidden { (choices()) (stage()) (looks()) (transport()) (findings()) (help()) }
+                div.viewer hidden { (choices()) (stage()) (looks()) (transport(card, planes)) (findings()) (help()) }
             }
         }
     }
@@ -53,8 +55,10 @@ fn stage() -> Markup {
             }
             span.tag.left {}
             span.tag.right {}
+            p.refusal role="status" hidden {}
         }
         div.legends {}
+        div.captions {}
     }
 }
 
@@ -72,7 +76,7 @@ fn looks() -> Markup {
     }
 }
 
-fn transport() -> Markup {
+fn transport(card: &Scorecard, planes: &Planes) -> Markup {
     html! {
         p.no-time.muted hidden {}
         div.transport hidden {
@@ -85,8 +89,14 @@ fn transport() -> Markup {
                 (button("still", "As shown", "Back to the middle frame, as a game shows it (Escape)"))
             }
             p.note {
-                "Frames show each variant at the surface points of the middle frame, its pattern as a game ships it. "
+                "Frames show each variant at the surface points of the middle frame, "
+                @if card.provenance.adapter.rendered_here() { "its pattern as a game ships it. " } @else { "as its program rendered it, read at pixels. " }
+                @if let Some(caveat) = any_swim_caveat(card) { (caveat) ". " }
                 "Where a variant has no stored frames, its middle frame is shown."
+                @if planes.beside.is_none() {
+                    " In this single file frames are in steps of 1/512, and those of variants as printed are left out; "
+                    code { "--report dir" } " keeps all of them as they are."
+                }
             }
             div.wide.swimming {}
         }
@@ -111,12 +121,23 @@ fn findings() -> Markup {
                 figcaption { strong { "This point over the frames" } p { "The line in its band is the truth with twice its standard error; colours are those of the table. A calm variant is a level line." } }
                 svg.plot viewBox="0 0 620 250" role="img" {}
             }
+            div.tile-scores hidden {
+                h3.tile-name {}
+                p.note { "ERROR is a root (visibility); its parts are in millionths (visibility squared). Estimates of no error scatter about 0." }
+                p.note.no-penumbra hidden { "This tile has no penumbra: nothing is scored in it." }
+                div.wide tabindex="0" role="region" aria-label="Scores of every variant in this tile" {
+                    table.plain { thead { tr {} } tbody {} }
+                }
+            }
         }
     }
 }
 
 const KEYS: [(&str, &str); 17] = [
-    ("1 – 9", "a variant into the right slot, in the order of the table"),
+    (
+        "1 – 9, shift-0 – 9",
+        "a variant into the right slot, in the order of the table; with shift the 10th to the 19th",
+    ),
     ("R", "the truth into the left slot"),
     ("D", "difference: right minus left"),
     ("F", "flip: hold for the right picture (or point at it)"),
@@ -126,10 +147,17 @@ const KEYS: [(&str, &str); 17] = [
     ("G", "grid of tiles"),
     ("space", "play, pause"),
     (",  .", "a frame back, on"),
-    ("P", "follow the point under the cursor, or let it go"),
+    (
+        "P",
+        "follow the point under the cursor: it stays in the middle while the camera moves; again to let it go",
+    ),
     ("M", "move the camera, or hold it still"),
     ("arrows", "cursor by a pixel; with shift by ten"),
-    ("+  −  0", "zoom in, out, whole picture; the wheel zooms once the picture has been clicked"),
+    (
+        "+  −  0",
+        "zoom in, out, whole picture; the wheel zooms once the picture has been clicked. From 8 times on pixels have borders and \
+         numbers with as many digits as fit; the line of colour bars says in what steps",
+    ),
     ("double click, drag", "zoom in, pan"),
     ("Esc", "back to the middle frame; closes this"),
     ("?", "these keys"),

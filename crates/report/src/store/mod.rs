@@ -3,13 +3,16 @@
 //! Planes are EXR files of 32-bit floats rounded to 11 significant bits (those of a half float):
 //! the zeroed bits compress away, any EXR viewer opens them, and NaN stays NaN.
 
+mod paths;
 mod read;
 
-pub(crate) use read::{read_index, read_series, read_truth_series, read_variant, read_window};
+pub(crate) use paths::{CellsOf, scorecard_path};
+pub(crate) use read::{read_cells, read_index, read_series, read_truth_series, read_variant, read_window};
 
 use crate::error::{ReportError, write_whole};
 use crate::gate::{CROPS, GATE, SUMS};
 use crate::{SCHEMA_VERSION, Scorecard};
+use paths::{cells_path, series_path, truth_path, truth_series_path, variant_path};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -37,6 +40,8 @@ pub struct Surface {
     pub region: Image<f32>,
     /// Standard error of truth (visibility); NaN where nothing is seen.
     pub truth_error: Image<f32>,
+    /// True 10-90 % width of the penumbra in metres on the surface; NaN where it is not defined.
+    pub width: Option<Image<f32>>,
     /// World to clip space of each frame of the window, columns one after the other.
     pub cameras: Vec<[f32; 16]>,
 }
@@ -64,7 +69,23 @@ pub struct VariantPictures {
     /// The variant at every point of the middle frame, frame by frame, as a game would ship it; empty
     /// when it was not kept.
     pub series: Vec<Image<f32>>,
+    /// Where each cell of the squared error lies.
+    pub cells: CellMaps,
 }
+
+/// The cells of the squared error as maps (visibility squared), in the order of [`CELLS`]. NaN = not counted, or
+/// not measured; small negative values are legal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CellMaps {
+    /// At each anchor's pixel in the middle frame; empty when not kept.
+    pub pixels: Vec<Image<f32>>,
+    /// The mean over the penumbra of each tile, a pixel a tile; empty when not kept.
+    pub tiles: Vec<Image<f32>>,
+}
+
+/// Metric ids of the cells, which add up to the squared error.
+pub const CELLS: [&str; 5] =
+    ["smooth_static", "structured_static", "smooth_moving", "structured_moving", "noise"];
 
 /// Fills the folder of a run, picture by picture, so that never more than one is in memory.
 #[derive(Debug)]
@@ -98,6 +119,9 @@ pub(crate) struct StoredVariant {
     /// Frames that are stored.
     #[serde(default)]
     pub(crate) frames: usize,
+    /// Whether the cells are stored, by pixel and by tile.
+    #[serde(default)]
+    pub(crate) cells: [bool; 2],
 }
 
 const INDEX: &str = "index.json";
@@ -147,10 +171,11 @@ impl RunWriter {
             layers.extend(channels.map(|(c, name)| layer(name, &beauty.map(|rgb| rgb[c]))));
         }
         if let Some(surface) = &pictures.surface {
-            let Surface { depth, region, truth_error, cameras } = surface;
+            let Surface { depth, region, truth_error, width, cameras } = surface;
             // Depth keeps all its bits: world positions come from it.
             layers.push(("depth.Z".into(), depth.clone()));
             layers.extend([layer("region.V", region), layer("deviation.V", truth_error)]);
+            layers.extend(width.as_ref().map(|width| layer("width.V", width)));
             self.index.cameras.insert(window, cameras.clone());
         }
         write_exr(&truth_path(&self.folder, window), &layers)?;
@@ -172,12 +197,19 @@ impl RunWriter {
         variant: usize,
         pictures: &VariantPictures,
     ) -> Result<(), ReportError> {
-        let VariantPictures { mask, error, swim, series: frames } = pictures;
+        let VariantPictures { mask, error, swim, series: frames, cells } = pictures;
         let mut layers = vec![layer("visibility.V", mask), layer("error.V", error)];
         layers.extend(swim.as_ref().map(|swim| layer("swim.V", swim)));
         write_exr(&variant_path(&self.folder, window, variant), &layers)?;
         if !frames.is_empty() {
             write_exr(&series_path(&self.folder, window, variant), &series(frames))?;
+        }
+        for (of, maps) in [(CellsOf::Pixels, &cells.pixels), (CellsOf::Tiles, &cells.tiles)] {
+            if !maps.is_empty() {
+                let layers: Vec<Layer> =
+                    CELLS.iter().zip(maps).map(|(id, map)| layer(&format!("{id}.V"), map)).collect();
+                write_exr(&cells_path(&self.folder, (window, variant), of), &layers)?;
+            }
         }
         let (error_p995, swim_p995) = (upper_percentile(error), swim.as_ref().map(upper_percentile));
         self.index.variants.push(StoredVariant {
@@ -186,6 +218,7 @@ impl RunWriter {
             error_p995,
             swim_p995,
             frames: frames.len(),
+            cells: [!cells.pixels.is_empty(), !cells.tiles.is_empty()],
         });
         Ok(())
     }
@@ -205,28 +238,6 @@ impl RunWriter {
         let text = text.map_err(|e| ReportError::Contradiction(e.to_string()))?;
         write_whole(&path, text.as_bytes())
     }
-}
-
-/// Where the scorecard of a run lies.
-pub(crate) fn scorecard_path(folder: &Path) -> PathBuf {
-    folder.join("scorecard.json")
-}
-
-/// Files are named by number: names of scenes may hold anything.
-fn truth_path(folder: &Path, window: usize) -> PathBuf {
-    folder.join("pictures").join(format!("window-{window:02}-truth.exr"))
-}
-
-fn variant_path(folder: &Path, window: usize, variant: usize) -> PathBuf {
-    folder.join("pictures").join(format!("window-{window:02}-variant-{variant:02}.exr"))
-}
-
-fn series_path(folder: &Path, window: usize, variant: usize) -> PathBuf {
-    folder.join("pictures").join(format!("window-{window:02}-variant-{variant:02}-frames.exr"))
-}
-
-fn truth_series_path(folder: &Path, window: usize) -> PathBuf {
-    folder.join("pictures").join(format!("window-{window:02}-truth-frames.exr"))
 }
 
 /// Frames as layers, `t0000.V` first.
@@ -270,10 +281,13 @@ mod tests {
             error: ramp.clone(),
             swim: None,
             series: vec![ramp.clone(), ramp.map(|v| 2.0 * v)],
+            cells: CellMaps { pixels: vec![], tiles: vec![Image::filled(2, 1, 0.25); 5] },
         };
         writer.variant_pictures(3, 7, &pictures).expect("written");
         let back = read_variant(folder.path(), 3, 7).expect("read");
         assert_eq!(back.swim, None);
+        let tiles = read_cells(folder.path(), (3, 7), CellsOf::Tiles).expect("read");
+        assert_eq!(tiles, vec![Image::filled(2, 1, 0.25); 5]);
         let frames = read_series(folder.path(), 3, 7).expect("read");
         assert_eq!(
             frames.iter().map(|f| *f.at(8, 0)).collect::<Vec<_>>(),

@@ -1,9 +1,7 @@
 //! Reads back what a run stored.
 
-use super::{
-    PictureIndex, Surface, VariantPictures, WindowPictures, series_path, truth_path, truth_series_path,
-    variant_path,
-};
+use super::paths::{CellsOf, cells_path, series_path, truth_path, truth_series_path, variant_path};
+use super::{CELLS, CellMaps, PictureIndex, Surface, VariantPictures, WindowPictures};
 use crate::error::ReportError;
 use std::path::Path;
 use umbrage_frame::{Image, Layer, read_exr};
@@ -32,9 +30,10 @@ pub(crate) fn read_window(folder: &Path, window: usize) -> Result<WindowPictures
     };
     let cameras = read_index(folder)?.cameras.remove(&window);
     let mut plane = |name| take(&mut layers, name, &path).ok();
+    let width = plane("width.V");
     let surface = match (plane("depth.Z"), plane("region.V"), plane("deviation.V"), cameras) {
         (Some(depth), Some(region), Some(truth_error), Some(cameras)) => {
-            Some(Surface { depth, region, truth_error, cameras })
+            Some(Surface { depth, region, truth_error, width, cameras })
         }
         _ => None,
     };
@@ -55,6 +54,7 @@ pub(crate) fn read_variant(
         error: take("error.V")?,
         swim: take("swim.V").ok(),
         series: Vec::new(),
+        cells: CellMaps::default(),
     })
 }
 
@@ -65,6 +65,17 @@ pub(crate) fn read_series(
     variant: usize,
 ) -> Result<Vec<Image<f32>>, ReportError> {
     frames(&series_path(folder, window, variant))
+}
+
+/// Reads back the cells of a variant, in the order of [`CELLS`].
+pub(crate) fn read_cells(
+    folder: &Path,
+    place: (usize, usize),
+    of: CellsOf,
+) -> Result<Vec<Image<f32>>, ReportError> {
+    let path = cells_path(folder, place, of);
+    let mut layers = read_exr(&path)?;
+    CELLS.iter().map(|id| take(&mut layers, &format!("{id}.V"), &path)).collect()
 }
 
 /// Reads back truth frame by frame.

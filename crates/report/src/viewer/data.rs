@@ -5,6 +5,7 @@ use crate::book::Book;
 use crate::picture::{HATCH, Ramp};
 use crate::plot::Look;
 use crate::trace::Trace;
+use crate::words::swim_caveat;
 use crate::{MetricCard, Scorecard};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -34,6 +35,7 @@ struct Window<'a> {
     width: u32,
     height: u32,
     swim_limit: f32,
+    cell_limits: BTreeMap<&'static str, f32>,
     cameras: &'a [[f32; 16]],
 }
 
@@ -43,6 +45,8 @@ struct Variant<'a> {
     label: &'static str,
     id: String,
     class: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    swim_caveat: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -61,6 +65,7 @@ pub(crate) fn describe(card: &Scorecard, book: &Book, planes: &Planes, trace: &[
         label: of.calibration.label(),
         id: format!("{}/{}", of.name, of.calibration.id()),
         class: Look::of(card, v).class(),
+        swim_caveat: swim_caveat(card, v),
     };
     let hex = |ramp: Ramp| {
         let levels = usize::from(ramp.levels());
@@ -101,6 +106,7 @@ fn window<'a>(
         width,
         height,
         swim_limit: book.swim_limits.get(&index).copied().unwrap_or(1.0),
+        cell_limits: planes.cell_limits.get(&index).cloned().unwrap_or_default(),
         cameras: planes.cameras.get(&index).map_or(&[], Vec::as_slice),
     }
 }

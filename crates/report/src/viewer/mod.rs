@@ -3,14 +3,19 @@
 //! In a single file the planes are blocks of text that no browser runs; beside a page they are
 //! scripts that hand their text over, because a page opened from a disk may not fetch files.
 
+mod cells;
 mod data;
 mod encode;
 
 pub(crate) use data::{describe, inert};
 
 use crate::error::write_whole;
-use crate::store::{PictureIndex, StoredVariant, read_series, read_truth_series, read_variant, read_window};
+use crate::store::{
+    CellsOf, PictureIndex, StoredVariant, read_cells, read_series, read_truth_series, read_variant,
+    read_window,
+};
 use crate::{Calibration, Layout, ReportError, Scorecard};
+use cells::{Peaks, roots};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use umbrage_frame::Image;
@@ -28,6 +33,8 @@ pub(crate) struct Planes {
     pub(crate) sizes: BTreeMap<usize, (u32, u32)>,
     /// World to clip space, frame by frame, of windows that have it.
     pub(crate) cameras: BTreeMap<usize, Vec<[f32; 16]>>,
+    /// Where the colours of each map of cells end, by window.
+    pub(crate) cell_limits: BTreeMap<usize, BTreeMap<&'static str, f32>>,
 }
 
 /// Where the planes go.
@@ -35,6 +42,7 @@ struct Packer<'a> {
     planes: Planes,
     folder: Option<PathBuf>,
     card: &'a Scorecard,
+    peaks: Peaks,
 }
 
 /// Packs every plane of a run, one picture at a time.
@@ -45,7 +53,7 @@ pub(crate) fn pack(
     (layout, beside): (Layout, &'static str),
 ) -> Result<Planes, ReportError> {
     let planes = Planes { cameras: index.cameras.clone(), ..Planes::default() };
-    let mut packer = Packer { planes, folder: None, card };
+    let mut packer = Packer { planes, folder: None, card, peaks: Peaks::default() };
     if layout == Layout::Folder {
         let folder = run.join(beside);
         std::fs::create_dir_all(&folder).map_err(ReportError::at(&folder))?;
@@ -58,7 +66,7 @@ pub(crate) fn pack(
     for stored in index.variants.iter().filter(known) {
         packer.variant(run, stored)?;
     }
-    Ok(packer.planes)
+    Ok(Planes { cell_limits: packer.peaks.limits(), ..packer.planes })
 }
 
 /// Frames in a single file are rounded to steps of 1/512, half of what a screen of 8 bits shows: noise
@@ -77,6 +85,9 @@ impl Packer<'_> {
             for (name, plane) in of {
                 self.put(format!("w{window}-{name}"), &[plane])?;
             }
+            if let Some(width) = &surface.width {
+                self.put(format!("w{window}-width"), &[width])?;
+            }
         }
         if series {
             let frames = read_truth_series(run, window)?;
@@ -93,6 +104,7 @@ impl Packer<'_> {
         if let Some(swim) = &pictures.swim {
             self.put(format!("w{window}-v{variant}-swim"), &[swim])?;
         }
+        self.cells(run, stored)?;
         // One file holds the comparison's frames; those of the curiosity are large too.
         let matched = self.card.variants[variant].calibration != Calibration::AsPrinted;
         if frames > 0 && (matched || self.folder.is_some()) {
@@ -101,6 +113,23 @@ impl Packer<'_> {
                 frames.iter_mut().for_each(|frame| *frame = frame.map(|&v| coarse(v)));
             }
             self.put(format!("w{window}-v{variant}-series"), &frames.iter().collect::<Vec<_>>())?;
+        }
+        Ok(())
+    }
+
+    /// By tile everywhere; by pixel only beside a page, for five planes a variant are large.
+    fn cells(&mut self, run: &Path, stored: &StoredVariant) -> Result<(), ReportError> {
+        let &StoredVariant { window, variant, cells: [pixels, tiles], .. } = stored;
+        let by_pixel = pixels && self.folder.is_some();
+        for (of, name, packed) in [(CellsOf::Tiles, "tiles", tiles), (CellsOf::Pixels, "cells", by_pixel)] {
+            if !packed {
+                continue;
+            }
+            let maps = read_cells(run, (window, variant), of)?;
+            if of == CellsOf::Pixels || !by_pixel {
+                self.peaks.add(window, &maps);
+            }
+            self.put(format!("w{window}-v{variant}-{name}"), &roots(&maps).iter().collect::<Vec<_>>())?;
         }
         Ok(())
     }

@@ -10,7 +10,7 @@ use umbrage_metrics::Score;
 /// Under a variant's shadow.
 pub(crate) fn shadow_caption(scores: &BTreeMap<String, Measured>) -> String {
     match dominant_cell(scores) {
-        Some("noise") => "Compare the softness of its edges with the truth; its grain is averaged out here.",
+        Some("noise") => "Compare the softness of its edges with the truth; its grain is that of one frame.",
         Some("structured_static" | "structured_moving") => {
             "Bands parallel to the edges: the truth is smooth there."
         }

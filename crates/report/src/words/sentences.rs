@@ -2,13 +2,16 @@
 //!
 //! Nothing is claimed that an interval does not carry; "could not be told apart" is an answer.
 
-use super::{Comparison, Sentence, is_still, is_unresolved};
+use super::{Comparison, Sentence, any_swim_caveat, is_still, is_unresolved};
 use crate::numbers::{free_number, free_score, number, percent};
 use crate::{Scorecard, WindowCard};
 use umbrage_metrics::Score;
 
 /// Budgets that the cost sentence goes through, milliseconds a frame.
 const BUDGETS_MS: [f64; 8] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0];
+
+/// From this share on the rest is within rounding of nothing.
+const NEARLY_ALL: f64 = 0.995;
 
 /// The sentences, in the order of their weight.
 pub(crate) fn answer(card: &Scorecard) -> Vec<Sentence> {
@@ -90,7 +93,10 @@ fn motion(all: Comparison) -> Sentence {
         sentence.0.extend(part.0);
         sentence = sentence.text(if i + 1 == count { "." } else { "; " });
     }
-    sentence
+    match any_swim_caveat(all.card) {
+        Some(caveat) => sentence.text(format!(" {caveat}; compare it with the same reading only.")),
+        None => sentence,
+    }
 }
 
 /// The most, and the least where everything swims.
@@ -109,7 +115,11 @@ fn calmest_and_wildest(all: Comparison, ranked: &[(usize, Score)], name_calmest:
         let text = "no difference in SWIMMING could be resolved; the largest estimate is ";
         return sentence.text(text).number(free_score(size));
     }
-    let verb = if tied.len() == 1 { " swims most, SWIMMING " } else { " swim most, SWIMMING up to " };
+    let verb = match (tied.len(), ranked.len()) {
+        (1, 1) => " swims, SWIMMING ",
+        (1, _) => " swims most, SWIMMING ",
+        _ => " swim most, SWIMMING up to ",
+    };
     sentence.variants(all.card, &tied, 3).text(verb).number(free_score(size))
 }
 
@@ -144,6 +154,10 @@ fn trade_off(all: Comparison) -> Option<Sentence> {
         _ => "a wrong penumbra profile (its width or its depth)",
     };
     let of = Sentence::default().text("Of the squared error of ").variant(all.card, best).text(", ");
+    // Estimates of the other parts scatter about 0, and below it the largest is more than the whole.
+    if share >= NEARLY_ALL {
+        return Some(of.text(format!("nearly all is {what} (the other parts cannot be told from 0).")));
+    }
     Some(of.number(percent(share)).text(format!(" is {what}.")))
 }
 
@@ -155,7 +169,8 @@ fn cost(all: Comparison) -> Sentence {
     let start = Sentence::default();
     if priced.is_empty() {
         let notes = all.card.overall.iter().find_map(|o| o.cost_note.as_deref());
-        let reason = notes.map_or("needs a GPU", |n| n.trim_start_matches("not a cost: "));
+        let reason = notes
+            .map_or("needs a GPU", |n| n.trim_start_matches("not a cost: ").trim_start_matches("no cost: "));
         return start.section("cost", "Cost").text(format!(" was not measured: {reason}."));
     }
     let mut sentence = start.text("By ").section("cost", "cost").text(" (the 95th percentile of a frame): ");

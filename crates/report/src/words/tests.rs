@@ -176,3 +176,27 @@ fn both_shares_of_coverage_are_said() {
     let older = "Scores cover 73.7\u{a0}% to 94.7\u{a0}% of the surface points that face the light; truth";
     assert!(say(&card).contains(older), "{}", say(&card));
 }
+
+#[test]
+fn a_part_that_is_more_than_the_whole_is_nearly_all() {
+    let mut card = card([score(0.03, 0.001), score(0.04, 0.001), score(0.05, 0.001)], [STILL; 3]);
+    let best = &mut card.overall[0].scores;
+    best.insert("mse".into(), score(9e-4, 1e-5).into());
+    best.insert("noise".into(), score(9.1e-4, 1e-5).into());
+    let said = say(&card);
+    assert!(said.contains("nearly all is noise") && !said.contains("101"), "{said}");
+    card.overall[0].scores.insert("noise".into(), score(7e-4, 1e-5).into());
+    assert!(say(&card).contains("77.8\u{a0}% is noise"), "{}", say(&card));
+}
+
+#[test]
+fn one_take_from_elsewhere_says_what_its_swimming_holds() {
+    let mut card = card([score(0.03, 0.001), score(0.04, 0.001), score(0.05, 0.001)], [score(9e-6, 1e-6); 3]);
+    assert!(!say(&card).contains("edge crawl"), "our own are read at anchors");
+    card.variants[1].calibration = crate::Calibration::Elsewhere;
+    assert!(say(&card).contains("SWIMMING here holds edge crawl"));
+    card.overall[1].scores.insert("noise".into(), Measured::no("one take"));
+    assert!(say(&card).contains("holds the noise of its one take, and edge crawl"), "{}", say(&card));
+    card.overall[0].cost_note = Some("no cost: rendered elsewhere".into());
+    assert!(say(&card).contains("Cost was not measured: rendered elsewhere."));
+}

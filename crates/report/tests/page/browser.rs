@@ -120,6 +120,16 @@ impl Browser {
         self.settle();
     }
 
+    /// A digit with shift, as a keyboard of the English layout sends it.
+    pub(crate) fn shifted(&mut self, digit: u8, written: &str) {
+        let key = json!({
+            "type": "keyDown", "key": written, "text": written, "code": format!("Digit{digit}"), "modifiers": 8
+        });
+        self.call("Input.dispatchKeyEvent", key);
+        self.key_up(written);
+        self.settle();
+    }
+
     /// Presses a key and holds it.
     pub(crate) fn key_down(&mut self, key: &str) {
         let text = if key.chars().count() == 1 { key } else { "" };

@@ -4,6 +4,7 @@
 mod browser;
 #[path = "../fixture/mod.rs"]
 mod fixture;
+mod layers;
 
 use browser::Browser;
 use fixture::{Device, scorecard};
@@ -53,11 +54,11 @@ fn on_screen(browser: &mut Browser, x: u32, y: u32) -> [f64; 2] {
     [place[0].as_f64().expect("x"), place[1].as_f64().expect("y")]
 }
 
-/// The grey that is drawn at a place of the screen.
+/// The grey of the pixel whose centre is at a place of the screen: its lower right corner, where neither border nor number is.
 fn grey_at(browser: &mut Browser, [x, y]: [f64; 2]) -> f64 {
     let value = browser.eval(&format!(
         "(() => {{ const c = document.querySelector('.stage canvas'), b = c.getBoundingClientRect(); \
-         return c.getContext('2d').getImageData({x} - b.left, {y} - b.top, 1, 1).data[0]; }})()"
+         return c.getContext('2d').getImageData({x} + 3.2 - b.left, {y} + 3.2 - b.top, 1, 1).data[0]; }})()"
     ));
     value.as_f64().expect("a grey")
 }
@@ -299,4 +300,28 @@ fn planes_beside_the_page_are_read_from_a_disk() {
         assert!(Path::new(file).starts_with(run.path()), "{url}");
     }
     assert_eq!(browser.complaints(), Vec::<String>::new());
+}
+
+#[test]
+#[ignore = "needs a browser: cargo xtask page"]
+fn long_names_fit_a_narrow_screen() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fixture::write(folder.path(), Device::Software, SIZE).expect("stored");
+    let mut card = scorecard(Device::Software, SIZE);
+    let long = "a_scene_whose_name_has_no_end_".repeat(6);
+    card.windows[0].scene = long.clone();
+    card.windows[0].path = long.clone();
+    card.provenance.suite = long.clone();
+    card.provenance.scenes[0].name = long;
+    card.variants[4].name = "a-variant-whose-name-has-no-end-".repeat(4);
+    card.save(&folder.path().join("scorecard.json")).expect("stored");
+    let written = write_report(folder.path(), Layout::SingleFile).expect("reported");
+    let mut browser = Browser::open(&written.index, (390, 844));
+    browser.eval("document.querySelectorAll('details').forEach(d => d.open = true)");
+    // What is wider than the screen scrolls inside itself; the page does not.
+    let wide = browser.eval(
+        "[...document.querySelectorAll('main *, header *')].filter(e => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest('.wide, .strip-row, pre, select, dialog')).slice(0, 5).map(e => e.outerHTML.slice(0, 90)).join('\\n')",
+    );
+    assert_eq!(wide, "");
+    assert_eq!(browser.eval("document.documentElement.scrollWidth"), 390);
 }

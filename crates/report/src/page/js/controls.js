@@ -1,7 +1,7 @@
 // The viewer's buttons, fields, pointer and the frames.
 import { data } from "./planes.js";
 import { hasTime } from "./layers.js";
-import { changed, chooseFrame, chooseWindow, current, middle, onChange, state } from "./state.js";
+import { centre, changed, chooseFrame, chooseWindow, current, middle, onChange, state } from "./state.js";
 import { fetchWindow, fillSlots, find, fit, pixelAt, placeAt, root, stageSize, stage, start, zoom } from "./viewer.js";
 import { frameAt } from "./series.js";
 
@@ -23,10 +23,11 @@ export const step = (by) => {
   chooseFrame((state.frame ?? middle()) + by);
 };
 
-// Pins the point at the cursor (or the middle of the view), or lets it go.
+// Pins the point at the cursor (or the middle of the view) and brings it to the middle, or lets it go.
 export function follow() {
   const place = state.cursor ?? { x: state.view.x, y: state.view.y };
   state.pin = state.pin === null ? pixelAt(place) : null;
+  centre();
   changed();
 }
 
@@ -132,7 +133,11 @@ function fields() {
   on(".split", "input", (t) => (state.split = Number(t.value)));
   on(".frame", "input", (t) => { play(false); chooseFrame(Number(t.value)); });
   on(".speed", "change", () => playing() && play(true));
-  on(".moving", "change", (t) => { state.moving = t.checked; if (state.frame === null) chooseFrame(middle()); });
+  on(".moving", "change", (t) => {
+    state.moving = t.checked;
+    if (state.frame === null) chooseFrame(middle());
+    centre();
+  });
   for (const button of root.querySelectorAll("button[data-do]")) button.addEventListener("click", () => actions[button.dataset.do]());
   find(".point svg").addEventListener("pointerdown", (e) => {
     const box = e.currentTarget.getBoundingClientRect();

@@ -55,6 +55,13 @@ const KEYS = {
 };
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
+// The variant that a digit stands for, ten more with shift: by the key's place, for with shift it writes something else.
+function numberOf({ code, key, shiftKey }) {
+  const digit = Number(/^(?:Digit|Numpad)(\d)$/.exec(code)?.[1] ?? (/^\d$/.test(key) ? key : NaN));
+  // Where shift and a digit write another key's sign, that key is meant.
+  return Number.isNaN(digit) || (shiftKey && KEYS[key]) ? 0 : digit + (shiftKey ? 10 : 0);
+}
+
 function pressed(event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return false;
   const key = event.key.length === 1 && event.key !== "E" ? event.key.toLowerCase() : event.key;
@@ -64,10 +71,11 @@ function pressed(event) {
     changed();
     return true;
   }
-  if (/^[1-9]$/.test(key)) {
+  const number = numberOf(event);
+  if (number) {
     // Light-matched ones first, as in the table.
     const order = [...light(), ...data.variants.keys()].filter((v, i, all) => all.indexOf(v) === i);
-    if (order[key - 1] !== undefined) chooseVariant(order[key - 1]);
+    if (order[number - 1] !== undefined) chooseVariant(order[number - 1]);
     return true;
   }
   if (key === "Escape") {

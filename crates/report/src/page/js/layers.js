@@ -1,5 +1,6 @@
 // What a slot of the viewer can show, and its values.
 import { data, has, plane } from "./planes.js";
+import { CELLS, byPixel, cellKinds, cellValues, hasCells, isCell } from "./cells.js";
 
 export const REGIONS = ["left out", "umbra", "penumbra", "lit"];
 
@@ -19,14 +20,18 @@ export function labelOf(id) {
   const v = variantOf(id);
   if (v === null) return OWN[id][0];
   const { name, label } = data.variants[v];
-  return `${name}, ${label}: ${OF_VARIANT[kindOf(id)]}`;
+  return `${name}, ${label}: ${OF_VARIANT[kindOf(id)] ?? CELLS[kindOf(id)]}`;
 }
+
+// Whether a layer has a value for each tile, not for each pixel.
+export const isTiled = (window, id) => isCell(kindOf(id)) && !byPixel(window, variantOf(id));
 
 // Layers of a window in groups: [title, ids].
 export function groups(window) {
   const own = ["Truth", Object.keys(OWN).filter((id) => has(window, id))];
   const all = data.variants.map((v, i) => {
     const kinds = Object.keys(OF_VARIANT).filter((kind) => has(window, `v${i}-${kind === "error" ? "shadow" : kind}`));
+    if (hasCells(window, i)) kinds.push(...cellKinds(window));
     return [`${v.name}, ${v.label}`, kinds.map((kind) => `v${i}-${kind}`)];
   });
   return [own, ...all].filter(([, ids]) => ids.length);
@@ -51,15 +56,25 @@ export function shadowAt(window, v, frame) {
 
 const errors = new Map();
 
-// Shadow less truth where a point is scored, NaN elsewhere; the still picture's truth is the middle frame's.
-export function errorAt(window, v, frame) {
+// What an error is made of; the still picture's truth is the middle frame's.
+function parts(window, v, frame) {
   const [shadow, truth] = [shadowAt(window, v, frame), truthAt(window, frame ?? middle(window))];
   const region = has(window, "region") ? plane(window, "region")?.[0] : truth;
   if (!shadow || !truth || !region) return null;
+  return { shadow, of: (i) => (region === truth || region[i] > 0 ? shadow[i] - truth[i] : NaN) };
+}
+
+// At one pixel.
+export const errorOf = (window, v, frame, pixel) => parts(window, v, frame)?.of(pixel);
+
+// Shadow less truth where a point is scored, NaN elsewhere.
+export function errorAt(window, v, frame) {
+  const from = parts(window, v, frame);
+  if (!from) return null;
   const key = `${window}/${v}/${frame}`;
   if (!errors.has(key)) {
     if (errors.size > 60) errors.clear();
-    errors.set(key, shadow.map((s, i) => (region === truth || region[i] > 0 ? s - truth[i] : NaN)));
+    errors.set(key, from.shadow.map((_, i) => from.of(i)));
   }
   return errors.get(key);
 }
@@ -71,5 +86,13 @@ export function valuesOf(window, id, frame) {
   if (v === null) return plane(window, id)?.[0] ?? null;
   if (kindOf(id) === "shadow") return shadowAt(window, v, frame);
   if (kindOf(id) === "error") return errorAt(window, v, frame);
+  if (isCell(kindOf(id))) return cellValues(window, v, kindOf(id));
   return plane(window, `v${v}-swim`)?.[0] ?? null;
+}
+
+// What a layer lacks while frames are shown; nothing where it has the frame, or is about all of them.
+export function lacksFrame(window, id, frame) {
+  const v = variantOf(id);
+  if (frame === null || v === null || !["shadow", "error"].includes(kindOf(id)) || hasSeries(window, v)) return "";
+  return data.beside ? " (no frames stored: the middle one)" : " (no frames stored in this file: --report dir keeps them; the middle one is shown)";
 }

@@ -36,7 +36,9 @@ function textBeside(key) {
 async function load(window, key) {
   const block = document.getElementById("plane-" + key);
   const text = block ? block.textContent : await textBeside(key);
-  const { width, height } = data.windows[window];
+  // Tiles have a pixel each.
+  const side = key.endsWith("-tiles") ? data.tile_px : 1;
+  const [width, height] = [data.windows[window].width, data.windows[window].height].map((n) => Math.ceil(n / side));
   const frames = unpack(await inflate(bytesOf(text)), width * height, width);
   loaded.set(key, frames);
   return frames;

@@ -1,8 +1,9 @@
 // The stage: one canvas that shows two layers in one of four ways, zoomed and panned together.
 import { paint } from "./colour.js";
+import { fitting } from "./digits.js";
+import { numbers } from "./numbers.js";
 
 const BORDERS_FROM = 8;
-const VALUES_FROM = 26;
 
 // A painted picture, kept until something that it depends on changes.
 export class Painter {
@@ -46,7 +47,7 @@ export function pictureAt(view, pane, height, x, y) {
   };
 }
 
-// Draws one layer into its pane. `shown`: {canvas, value(x, y) -> text, size}.
+// Draws one layer into its pane. `shown`: {canvas, value(x, y), size, kind, scale, tile}. Returns the form of its numbers.
 export function drawPane(ctx, ratio, view, pane, height, shown, marks) {
   const { left, width, cut } = pane;
   ctx.save();
@@ -55,18 +56,23 @@ export function drawPane(ctx, ratio, view, pane, height, shown, marks) {
   ctx.rect(left + cut[0], 0, cut[1] - cut[0], height);
   ctx.clip();
   const origin = [left + width / 2 - view.x * view.zoom, height / 2 - view.y * view.zoom];
+  let form = null;
   if (shown.canvas) {
     ctx.imageSmoothingEnabled = false;
     const { width: columns, height: rows } = shown.size;
     ctx.drawImage(shown.canvas, origin[0], origin[1], columns * view.zoom, rows * view.zoom);
     const seen = visible(view, pane, height, shown.size);
     if (view.zoom >= BORDERS_FROM) borders(ctx, view, origin, seen, 1);
-    if (view.zoom >= VALUES_FROM) numbers(ctx, view, origin, seen, shown);
+    // A tile has room for its number sooner than a pixel.
+    const step = shown.tile || 1;
+    form = view.zoom >= BORDERS_FROM || step > 1 ? fitting(shown.kind, shown.scale, view.zoom * step, ratio) : null;
+    if (form) numbers(ctx, view, origin, step > 1 ? wholeTiles(seen, step, shown.size) : seen, { ...shown, step, form, ratio });
     if (marks.tile) borders(ctx, view, origin, wholeTiles(seen, marks.tile, shown.size), marks.tile);
     marks.crosses.forEach((mark) => cross(ctx, view, origin, mark));
     if (marks.box) box(ctx, view, origin, marks.box);
   }
   ctx.restore();
+  return form;
 }
 
 // Columns and rows that can be seen.
@@ -100,24 +106,6 @@ function borders(ctx, view, [ox, oy], { x0, x1, y0, y1 }, step) {
   ctx.strokeStyle = step > 1 ? "rgb(61 140 255 / .75)" : "rgb(128 128 128 / .45)";
   ctx.lineWidth = 1;
   ctx.stroke();
-}
-
-function numbers(ctx, view, [ox, oy], { x0, x1, y0, y1 }, shown) {
-  ctx.font = `${Math.min(13, view.zoom / 3)}px ui-monospace, Menlo, Consolas, monospace`;
-  ctx.textAlign = "center";
-  ctx.textBaseline = "middle";
-  ctx.lineWidth = 2.5;
-  ctx.strokeStyle = "rgb(0 0 0 / .75)";
-  ctx.fillStyle = "#fff";
-  for (let y = y0; y < y1; y++) {
-    for (let x = x0; x < x1; x++) {
-      const text = shown.value(x, y);
-      if (!text) continue;
-      const at = [ox + (x + 0.5) * view.zoom, oy + (y + 0.5) * view.zoom];
-      ctx.strokeText(text, ...at);
-      ctx.fillText(text, ...at);
-    }
-  }
 }
 
 function cross(ctx, view, [ox, oy], { x, y, pinned }) {

@@ -43,16 +43,17 @@ export function chooseWindow(window) {
   changed();
 }
 
-// Another frame; the view moves with the pinned point when the camera does.
+// Another frame; the pinned point stays in the middle of the stage.
 export function chooseFrame(frame) {
-  const before = whereIs(state.pin);
   state.frame = frame === null || !hasTime(state.window) ? null : (frame + current().frames) % current().frames;
-  const after = whereIs(state.pin);
-  if (before && after) {
-    state.view.x += after.x - before.x;
-    state.view.y += after.y - before.y;
-  }
+  centre();
   changed();
+}
+
+// Brings the pinned point to the middle of the stage.
+export function centre() {
+  const pinned = whereIs(state.pin);
+  if (pinned) Object.assign(state.view, { x: pinned.x, y: pinned.y });
 }
 
 // Where a point of the middle frame lies in the shown picture.

@@ -1,3 +1,8 @@
+// A number that is a button says what it is, whatever it shows just now.
+export function label(button) {
+  if (button.dataset.of) button.setAttribute("aria-label", `${button.dataset.of}: ${button.textContent}${button.dataset.relative ?? ""}. Where it comes from`);
+}
+
 // Sorting, filtering and ratios of the tables. Without it the page is complete, in its first order.
 export function startTables() {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
@@ -54,6 +59,9 @@ export function startTables() {
       const by = base ? number(base.children[cell.cellIndex]) : NaN;
       const ratio = number(cell) / by;
       value.textContent = !base ? value.dataset.absolute : by > 0 ? "× " + ratio.toPrecision(3) : "–";
+      if (base) value.dataset.relative = " of " + chosen.querySelector("th strong").textContent;
+      else delete value.dataset.relative;
+      label(value);
       if (half) half.hidden = Boolean(base);
     }
   };

@@ -3,6 +3,7 @@ import { data, has } from "./planes.js";
 import { changed, chooseFrame, state } from "./state.js";
 import { fillSlots, root, stage } from "./viewer.js";
 import { openWindow, setMode } from "./controls.js";
+import { label } from "./table.js";
 
 // As a shell takes it.
 const quoted = (word) => (/^[\w./=+,:-]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'");
@@ -113,7 +114,8 @@ export function startTraces() {
     const button = document.createElement("button");
     [button.type, button.className, button.textContent] = ["button", value.className + " number", value.textContent];
     const row = cell.closest("tbody").querySelector("th strong").textContent;
-    button.setAttribute("aria-label", `${data.metrics[cell.dataset.metric]?.name ?? ""} of ${row}: ${value.textContent}. Where it comes from`);
+    button.dataset.of = `${data.metrics[cell.dataset.metric]?.name ?? ""} of ${row}`;
+    label(button);
     value.replaceWith(button);
     button.addEventListener("click", () => {
       fill(panel, cell);

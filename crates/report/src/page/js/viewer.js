@@ -1,12 +1,14 @@
 // The viewer: from its state to what is on the screen.
-import { scaleOf } from "./colour.js";
+import { differenceOf, scaleOf } from "./colour.js";
 import { data, fetchPlane, onPlane, plane } from "./planes.js";
-import { groups, hasTime, kindOf, labelOf, valuesOf } from "./layers.js";
+import { groups, hasTime, isTiled, kindOf, labelOf, valuesOf } from "./layers.js";
+import { unlike } from "./captions.js";
 import { mapOf } from "./points.js";
 import { Painter, drawPane, panes, pictureAt } from "./stage.js";
 import { changed, current, onChange, state, whereIs } from "./state.js";
 import { inspect } from "./inspect.js";
 import { plotPoint } from "./series.js";
+import { says } from "./says.js";
 
 export const root = document.querySelector("#viewer .viewer");
 export const stage = root?.querySelector(".stage");
@@ -42,34 +44,36 @@ function depthLimit() {
   return depthLimits.get(state.window);
 }
 
-// Right less left.
+// Right less left; `refused`: why there is none.
 function difference() {
-  const [a, b] = [state.left, state.right].map((id) => valuesOf(state.window, id, state.frame));
-  return a && b ? b.map((v, i) => v - a[i]) : null;
+  const ids = [state.left, state.right];
+  const [left, right] = ids.map((id) => ({ kind: kindOf(id), label: labelOf(id) }));
+  const refused = unlike(right, left);
+  const [a, b] = refused ? [] : ids.map((id) => valuesOf(state.window, id, state.frame));
+  return { id: ids.join("|"), kind: left.kind, refused, tiled: isTiled(state.window, state.left), values: a && b ? b.map((v, i) => v - a[i]) : null };
 }
 
-const text = (kind, v) => {
-  if (v === undefined || Number.isNaN(v)) return "";
-  if (kind === "region") return "";
-  if (kind === "depth") return v.toFixed(2);
-  const short = Math.abs(v).toFixed(kind === "shadow" ? 2 : 3).replace(/^0/, "");
-  return kind === "error" ? (v < 0 ? "−" : "+") + short : short;
-};
+const single = (id) => ({ id, kind: kindOf(id), tiled: isTiled(state.window, id), values: valuesOf(state.window, id, state.frame) });
 
+// A layer as the stage draws it.
 function shown(slot) {
-  const id = slot === "difference" ? `${state.left}|${state.right}` : state[slot];
-  const kind = slot === "difference" ? "error" : kindOf(id);
-  const [values, map, w] = [slot === "difference" ? difference() : valuesOf(state.window, id, state.frame), mapNow(), current()];
+  const isDifference = slot === "difference";
+  const { id, kind, values, tiled, refused } = isDifference ? difference() : single(state[slot]);
+  const [map, w] = [mapNow(), current()];
   const { window, frame, moving, exposure, errorLimit, swimLimit } = state;
   const key = [window, id, frame, moving, exposure, errorLimit, swimLimit].join("/");
-  const scale = scaleOf(kind, { exposure, errorLimit, swimLimit, depthLimit: depthLimit() });
+  const limits = { exposure, errorLimit, swimLimit, depthLimit: depthLimit(), cellLimits: w.cell_limits };
+  const scale = isDifference ? differenceOf(kind, limits) : scaleOf(kind, limits);
   const ready = values && (!moving || frame === null || map);
   const value = (x, y) => {
     const at = y * w.width + x;
     const from = map ? map[at] : at;
-    return text(kind, from < 0 ? NaN : values[from]);
+    return from < 0 ? NaN : values[from];
   };
-  return { size: w, canvas: ready ? painter.picture(key, w, values, map, scale) : null, value, kind, scale };
+  // Points that move take their tiles with them: there is no middle to write in.
+  const tile = tiled && !map ? data.tile_px : 0;
+  const canvas = ready ? painter.picture(key, w, values, map, scale) : null;
+  return { id, size: w, canvas, value, kind, scale, tile, tiled, refused, isDifference };
 }
 
 function fitStage() {
@@ -114,33 +118,6 @@ function crosses() {
   return all;
 }
 
-function tags(drawn) {
-  const [left, right] = [find(".tag.left"), find(".tag.right")];
-  const alone = { left: [state.left, null], flipped: [null, state.right] }[mode()];
-  const [a, b] = alone ?? [state.left, state.right];
-  const name = (id) => (id ? labelOf(id) : "");
-  if (mode() === "difference") [left.textContent, right.textContent] = [`${name(b)}, minus ${name(a)}`, ""];
-  else [left.textContent, right.textContent] = [name(a), name(b)];
-  left.hidden = !left.textContent;
-  right.hidden = !right.textContent;
-  find(".split-line").hidden = mode() !== "slider";
-  find(".split-line").style.left = 100 * state.split + "%";
-  legends(drawn);
-}
-
-// A colour bar for each kind that is shown.
-function legends(drawn) {
-  const units = { shadow: ["shadow", "visibility"], error: ["error", "visibility"], swim: ["swim", "visibility"], se: ["swim", "visibility"], depth: ["swim", "m"] };
-  const bars = drawn.filter((d, i) => units[d.kind] && drawn.findIndex((o) => o.kind === d.kind) === i).map(({ kind, scale }) => {
-    const [bar, span] = [document.createElement("span"), document.createElement("span")];
-    [bar.className, span.className] = ["bar " + units[kind][0], "scale"];
-    const end = (v) => String(Number(v.toPrecision(3))).replace("-", "−");
-    span.append(end(scale.low), bar, end(scale.high) + " " + units[kind][1]);
-    return span;
-  });
-  find(".legends").replaceChildren(...bars);
-}
-
 function render() {
   const [ctx, ratio] = fitStage();
   ctx.setTransform(1, 0, 0, 1, 0, 0);
@@ -148,15 +125,15 @@ function render() {
   const marks = { tile: state.tiles ? data.tile_px : 0, crosses: crosses(), box: state.box };
   const drawn = panesNow().map((pane) => {
     const layer = shown(pane.slot);
-    drawPane(ctx, ratio, state.view, pane, size.height, layer, marks);
-    return layer;
+    return { ...layer, form: drawPane(ctx, ratio, state.view, pane, size.height, layer, marks) };
   });
-  tags(drawn);
-  stage.dataset.ready = String(drawn.every((d) => d.canvas));
+  says(root, mode(), drawn);
+  stage.dataset.ready = String(drawn.every((d) => d.canvas || d.refused));
   stage.dataset.zoom = state.view.zoom.toFixed(3);
-  const pixel = state.pin ?? (state.cursor ? pixelAt(state.cursor) : null);
-  inspect(find(".inspector"), pixel);
-  if (hasTime(state.window)) plotPoint(find(".point svg"), pixel);
+  // A pinned point is plotted; the inspector reads what is pointed at, and the pinned point otherwise.
+  const pointed = state.cursor ? pixelAt(state.cursor) : null;
+  inspect(find(".inspector"), pointed ?? state.pin, pointed === null && state.pin !== null);
+  if (hasTime(state.window)) plotPoint(find(".point svg"), state.pin ?? pointed);
 }
 
 // The choices of a window's layers.
