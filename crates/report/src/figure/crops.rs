@@ -3,7 +3,7 @@
 use super::Chosen;
 use crate::ReportError;
 use crate::picture::{png_of_rgb, shade};
-use crate::store::{read_variant, read_window};
+use crate::store::read_variant;
 use std::path::{Path, PathBuf};
 use umbrage_frame::{Image, Layer, write_exr};
 
@@ -14,24 +14,37 @@ const FRAMES: [[u8; 3]; 4] = [[230, 97, 1], [94, 60, 153], [0, 114, 178], [0, 15
 const PAPER: [u8; 3] = [255; 3];
 
 /// A picture, its name, and the same as a name of a layer.
-pub(super) struct Panel {
-    pub(super) name: String,
+struct Panel {
+    name: String,
     layer: String,
-    pub(super) plane: Image<f32>,
+    plane: Image<f32>,
 }
 
 /// Truth first, then each variant.
-pub(super) fn panels(chosen: &Chosen) -> Result<Vec<Panel>, ReportError> {
-    let truth = read_window(chosen.run, chosen.window)?.truth;
+fn panels(chosen: &Chosen) -> Result<Vec<Panel>, ReportError> {
+    let truth = chosen.pictures.truth.clone();
     let mut all = vec![Panel { name: "truth".into(), layer: "reference.V".into(), plane: truth }];
     for &v in &chosen.variants {
         let of = &chosen.card.variants[v];
-        let name = format!("{} ({})", of.name, of.calibration.label());
-        let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
-        let layer = format!("{}-{}.V", of.name.chars().map(safe).collect::<String>(), of.calibration.id());
+        let name = one_line(&format!("{} ({})", of.name, of.calibration.label()));
+        let stem = format!("{}-{}", of.name.chars().map(layer_letter).collect::<String>(), of.calibration.id());
+        // Names that differ in other letters only, or a variant asked for twice.
+        let taken = |layer: &String| all.iter().any(|panel: &Panel| panel.layer == *layer);
+        let numbered = std::iter::once(format!("{stem}.V")).chain((2..).map(|n| format!("{stem}-{n}.V")));
+        let layer = numbered.into_iter().find(|layer| !taken(layer)).unwrap_or_default();
         all.push(Panel { name, layer, plane: read_variant(chosen.run, chosen.window, v)?.mask });
     }
     Ok(all)
+}
+
+/// Dots part layers.
+fn layer_letter(c: char) -> char {
+    if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }
+}
+
+/// A name in a sentence: no line breaks, nothing that a terminal obeys.
+pub(super) fn one_line(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// Writes `crops.png` and `crop-N.exr`; returns what they show, and the files of values.
@@ -40,9 +53,8 @@ pub(super) fn write(
     (out, put): (&Path, &mut impl FnMut(&str, &[u8]) -> Result<(), ReportError>),
 ) -> Result<(String, Vec<PathBuf>), ReportError> {
     let panels = panels(chosen)?;
-    let size = (panels[0].plane.width(), panels[0].plane.height());
-    let crops: Vec<[u32; 4]> = chosen.crops.iter().filter_map(|&crop| inside(crop, size)).collect();
-    put("crops.png", &png_of_rgb("crops", &sheet(&panels, &crops, chosen.times))?)?;
+    let crops = &chosen.crops;
+    put("crops.png", &png_of_rgb("crops", &sheet(&panels, crops, chosen.times))?)?;
     let mut values = Vec::new();
     for (index, &crop) in crops.iter().enumerate() {
         let layers: Vec<Layer> = panels.iter().map(|p| (p.layer.clone(), cut(&p.plane, crop))).collect();
@@ -53,20 +65,17 @@ pub(super) fn write(
     let names: Vec<&str> = panels.iter().map(|p| p.name.as_str()).collect();
     let w = &chosen.card.windows[chosen.window];
     let places: Vec<String> = crops.iter().map(|[x, y, w, h]| format!("{x},{y} of {w}x{h}")).collect();
+    let insets = match places.as_slice() {
+        [] => String::new(),
+        places => format!(" Insets at pixels {}; their values in crop-N.exr.", places.join("; ")),
+    };
     let caption = format!(
-        "crops.png: {}, {}, middle frame. Left to right: {}. Insets at pixels {}; their values in crop-N.exr.\n",
-        w.scene,
-        w.path,
+        "crops.png: {}, {}, middle frame. Left to right: {}.{insets}\n",
+        one_line(&w.scene),
+        one_line(&w.path),
         names.join("; "),
-        places.join("; ")
     );
     Ok((caption, values))
-}
-
-/// The part of a rectangle that is inside a picture.
-fn inside([left, top, width, height]: [u32; 4], (columns, rows): (u32, u32)) -> Option<[u32; 4]> {
-    let (right, bottom) = (left.saturating_add(width).min(columns), top.saturating_add(height).min(rows));
-    (left < right && top < bottom).then(|| [left, top, right - left, bottom - top])
 }
 
 pub(super) fn cut(plane: &Image<f32>, [left, top, width, height]: [u32; 4]) -> Image<f32> {

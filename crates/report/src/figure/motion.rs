@@ -1,10 +1,11 @@
 //! A path as an animation: with every surface point held where it is, and as its cameras see it.
 
 use super::Chosen;
-use super::crops::{cut, panels};
+use super::crops::{cut, one_line};
 use crate::ReportError;
 use crate::picture::shade;
-use crate::store::{read_index, read_series, read_window};
+use crate::store::{read_series, read_truth_series};
+use crate::words::full_name;
 use glam::{Mat4, Vec3};
 use png::{BitDepth, ColorType, Encoder};
 use umbrage_frame::Image;
@@ -17,28 +18,28 @@ pub(super) fn write(
     chosen: &Chosen,
     put: &mut impl FnMut(&str, &[u8]) -> Result<(), ReportError>,
 ) -> Result<String, ReportError> {
-    let index = read_index(chosen.run)?;
     let stored = |v: &&usize| {
-        index.variants.iter().any(|s| s.window == chosen.window && s.variant == **v && s.frames > 1)
+        let mut here = chosen.index.variants.iter().filter(|s| s.window == chosen.window);
+        here.any(|s| s.variant == **v && s.frames > 1)
     };
     let variants: Vec<usize> = chosen.variants.iter().filter(stored).copied().collect();
-    let Some(surface) = read_window(chosen.run, chosen.window)?.surface else { return Ok(String::new()) };
     if variants.is_empty() {
         return Ok("No frames are stored for this window: no animation.\n".into());
     }
-    let truth = panels(chosen)?.swap_remove(0).plane;
+    let Some(surface) = &chosen.pictures.surface else {
+        return Ok("No cameras are stored for this window: no animation.\n".into());
+    };
     let frames = surface.cameras.len();
-    let mut columns = vec![vec![truth; frames]];
+    let mut columns = vec![truth(chosen, frames)?];
     for &v in &variants {
         columns.push(read_series(chosen.run, chosen.window, v)?);
     }
+    if let Some(short) = columns.iter().map(Vec::len).find(|&n| n != frames) {
+        return Ok(format!("{short} frames are stored for {frames} cameras: no animation.\n"));
+    }
     let maps = maps(&surface.depth, &surface.cameras);
     // A pinned point fills the picture; a moving camera needs all of it.
-    let crop = chosen
-        .crops
-        .first()
-        .copied()
-        .filter(|c| c[0] + c[2] <= surface.depth.width() && c[1] + c[3] <= surface.depth.height());
+    let crop = chosen.crops.first().copied();
     let follow = |t: usize| {
         columns.iter().map(|c| crop.map_or_else(|| c[t].clone(), |crop| cut(&c[t], crop))).collect::<Vec<_>>()
     };
@@ -47,12 +48,20 @@ pub(super) fn write(
         crop.map_or(chosen.times, |c| (chosen.times * surface.depth.width()).div_ceil(2 * c[2]).max(1));
     put("path-follow.png", &animation(frames, zoom, follow)?)?;
     put("path-camera.png", &animation(frames, chosen.times, camera)?)?;
-    let names: Vec<&str> = variants.iter().map(|&v| chosen.card.variants[v].name.as_str()).collect();
+    let names: Vec<String> = variants.iter().map(|&v| one_line(&full_name(&chosen.card.variants[v]))).collect();
     Ok(format!(
         "path-follow.png (APNG): surface points held still, what moves is swimming. path-camera.png (APNG): the same points \
-         moved with each frame's camera. Left to right: truth; {}.\n",
+         moved with each frame's camera. Left to right: truth; {}. An MP4 beside them is lossy: an illustration, not data.\n",
         names.join("; ")
     ))
+}
+
+/// Truth of each frame: the same picture where the light stands still.
+fn truth(chosen: &Chosen, frames: usize) -> Result<Vec<Image<f32>>, ReportError> {
+    if chosen.index.truth_series.contains(&chosen.window) {
+        return read_truth_series(chosen.run, chosen.window);
+    }
+    Ok(vec![chosen.pictures.truth.clone(); frames])
 }
 
 fn animation(
