@@ -26,7 +26,9 @@ pub(crate) fn run(args: &FigureArgs) -> Result<(), CliError> {
         match video(file) {
             Ok(video) => print(&format!("{} (lossy: an illustration, not data)", video.display()))?,
             Err(NoVideo::NoProgram) => {
-                eprintln!("note: there is no ffmpeg on the PATH: the animations are APNG, and not MP4 as well");
+                eprintln!(
+                    "note: there is no ffmpeg on the PATH: the animations are APNG, and not MP4 as well"
+                );
                 break;
             }
             Err(NoVideo::Failed(reason)) => eprintln!("note: no MP4 of {}: ffmpeg: {reason}", file.display()),
@@ -43,20 +45,27 @@ enum NoVideo {
 /// The same as a video.
 fn video(file: &Path) -> Result<PathBuf, NoVideo> {
     let to = file.with_extension("mp4");
+    // One of an earlier run must not pass for this one's.
+    let _ = std::fs::remove_file(&to);
     // Its colours have half the resolution, which has to be whole; players know no other kind.
     let even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
     let made = Command::new("ffmpeg")
         .args(["-y", "-loglevel", "error", "-i"])
         .arg(file)
         .args(["-vf", even, "-pix_fmt", "yuv420p", "-movflags", "+faststart"])
-        .args(["-metadata", "title=Illustration: lossy, not data", "-metadata", "comment=illustration only: lossy"])
+        .args([
+            "-metadata",
+            "title=Illustration: lossy, not data",
+            "-metadata",
+            "comment=illustration only: lossy",
+        ])
         .arg(&to)
         .stdin(Stdio::null())
         .output();
     match made {
         Ok(output) if output.status.success() => Ok(to),
         Ok(output) => {
-            // Half a video must not pass for one.
+            // Nor half a video for a whole one.
             let _ = std::fs::remove_file(&to);
             let said = String::from_utf8_lossy(&output.stderr);
             let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it failed");

@@ -34,8 +34,9 @@ impl<'a> Chosen<'a> {
         })?;
         let here = |v: &usize| index.variants.iter().any(|s| s.window == window && s.variant == *v);
         let here: Vec<usize> = (0..card.variants.len()).filter(here).collect();
-        let variants = variants(card, &here, &request.variants)
-            .map_err(|wanted| refusal(run, &format!("no pictures of \"{wanted}\" in that window"), &ids(card, &here)))?;
+        let variants = variants(card, &here, &request.variants).map_err(|wanted| {
+            refusal(run, &format!("no pictures of \"{wanted}\" in that window"), &ids(card, &here))
+        })?;
         let pictures = read_window(run, window)?;
         let size = (pictures.truth.width(), pictures.truth.height());
         let crops = match request.crops.as_slice() {
@@ -55,11 +56,15 @@ impl<'a> Chosen<'a> {
 
 fn refusal(run: &Path, reason: &str, there: &[String]) -> ReportError {
     let there = if there.is_empty() { "none".into() } else { there.join(", ") };
-    ReportError::Request { path: scorecard_path(run), reason: one_line(&format!("{reason}; there is: {there}")) }
+    ReportError::Request {
+        path: scorecard_path(run),
+        reason: one_line(&format!("{reason}; there is: {there}")),
+    }
 }
 
 fn outside(run: &Path, [x, y, w, h]: [u32; 4], (width, height): (u32, u32)) -> ReportError {
-    let reason = format!("the crop {x},{y},{w},{h} is not inside the picture: it has {width}x{height} pixels");
+    let reason =
+        format!("the crop {x},{y},{w},{h} is not inside the picture: it has {width}x{height} pixels");
     ReportError::Request { path: scorecard_path(run), reason }
 }
 
@@ -67,7 +72,9 @@ fn outside(run: &Path, [x, y, w, h]: [u32; 4], (width, height): (u32, u32)) -> R
 fn window(card: &Scorecard, index: &PictureIndex, request: &FigureRequest) -> Option<usize> {
     let fits = |wanted: &Option<String>, name: &str| wanted.as_ref().is_none_or(|w| w == name);
     card.windows.iter().enumerate().position(|(i, w)| {
-        fits(&request.scene, &w.scene) && fits(&request.path, &w.path) && index.windows.iter().any(|s| s.0 == i)
+        fits(&request.scene, &w.scene)
+            && fits(&request.path, &w.path)
+            && index.windows.iter().any(|s| s.0 == i)
     })
 }
 

@@ -27,7 +27,8 @@ fn panels(chosen: &Chosen) -> Result<Vec<Panel>, ReportError> {
     for &v in &chosen.variants {
         let of = &chosen.card.variants[v];
         let name = one_line(&format!("{} ({})", of.name, of.calibration.label()));
-        let stem = format!("{}-{}", of.name.chars().map(layer_letter).collect::<String>(), of.calibration.id());
+        let stem =
+            format!("{}-{}", of.name.chars().map(layer_letter).collect::<String>(), of.calibration.id());
         // Names that differ in other letters only, or a variant asked for twice.
         let taken = |layer: &String| all.iter().any(|panel: &Panel| panel.layer == *layer);
         let numbered = std::iter::once(format!("{stem}.V")).chain((2..).map(|n| format!("{stem}-{n}.V")));

@@ -8,6 +8,7 @@ mod motion;
 mod paint;
 mod pdf;
 mod plots;
+mod points;
 mod tabular;
 mod tex;
 

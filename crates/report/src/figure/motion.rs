@@ -2,11 +2,11 @@
 
 use super::Chosen;
 use super::crops::{cut, one_line};
+use super::points::maps;
 use crate::ReportError;
 use crate::picture::shade;
 use crate::store::{read_series, read_truth_series};
 use crate::words::full_name;
-use glam::{Mat4, Vec3};
 use png::{BitDepth, ColorType, Encoder};
 use umbrage_frame::Image;
 
@@ -48,7 +48,8 @@ pub(super) fn write(
         crop.map_or(chosen.times, |c| (chosen.times * surface.depth.width()).div_ceil(2 * c[2]).max(1));
     put("path-follow.png", &animation(frames, zoom, follow)?)?;
     put("path-camera.png", &animation(frames, chosen.times, camera)?)?;
-    let names: Vec<String> = variants.iter().map(|&v| one_line(&full_name(&chosen.card.variants[v]))).collect();
+    let names: Vec<String> =
+        variants.iter().map(|&v| one_line(&full_name(&chosen.card.variants[v]))).collect();
     Ok(format!(
         "path-follow.png (APNG): surface points held still, what moves is swimming. path-camera.png (APNG): the same points \
          moved with each frame's camera. Left to right: truth; {}. An MP4 beside them is lossy: an illustration, not data.\n",
@@ -96,45 +97,6 @@ fn animation(
     }
     writer.finish().map_err(broken)?;
     Ok(bytes)
-}
-
-/// For each frame and pixel, the point of the middle frame that it shows.
-fn maps(depth: &Image<f32>, cameras: &[[f32; 16]]) -> Vec<Vec<Option<usize>>> {
-    let cameras: Vec<Mat4> = cameras.iter().map(Mat4::from_cols_array).collect();
-    let world = positions(depth, cameras[cameras.len() / 2]);
-    cameras.iter().map(|camera| map(depth, camera, &world)).collect()
-}
-
-fn positions(depth: &Image<f32>, camera: Mat4) -> Vec<Option<Vec3>> {
-    let inverse = camera.inverse();
-    let (width, height) = (depth.width(), depth.height());
-    let position = |(i, &d): (usize, &f32)| {
-        let (x, y) = ((i as u32 % width) as f32 + 0.5, (i as u32 / width) as f32 + 0.5);
-        let at = inverse
-            * glam::vec4((2.0 * x / width as f32 - 1.0) * d, (1.0 - 2.0 * y / height as f32) * d, 0.0, d);
-        // In perspective the depth is clip w; w of a world point is 1, which settles clip z.
-        let z = (1.0 - at.w) / inverse.z_axis.w;
-        d.is_finite().then(|| (at + z * inverse.z_axis).truncate())
-    };
-    depth.pixels().iter().enumerate().map(position).collect()
-}
-
-fn map(depth: &Image<f32>, camera: &Mat4, world: &[Option<Vec3>]) -> Vec<Option<usize>> {
-    let (width, height) = (depth.width(), depth.height());
-    let mut nearest = vec![(f32::INFINITY, None); world.len()];
-    for (point, position) in world.iter().enumerate() {
-        let Some(position) = position else { continue };
-        let clip = *camera * position.extend(1.0);
-        let (x, y) =
-            ((0.5 + 0.5 * clip.x / clip.w) * width as f32, (0.5 - 0.5 * clip.y / clip.w) * height as f32);
-        if clip.w > 0.0 && x >= 0.0 && y >= 0.0 && x < width as f32 && y < height as f32 {
-            let at = y as usize * width as usize + x as usize;
-            if clip.w < nearest[at].0 {
-                nearest[at] = (clip.w, Some(point));
-            }
-        }
-    }
-    nearest.into_iter().map(|(_, point)| point).collect()
 }
 
 fn moved(plane: &Image<f32>, map: &[Option<usize>]) -> Image<f32> {

@@ -27,7 +27,9 @@ fn score(chosen: &Chosen, v: usize, id: &str) -> Option<Score> {
 pub(super) fn latex(chosen: &Chosen) -> String {
     let power =
         |id: &str| Power::of(chosen.variants.iter().filter_map(|&v| score(chosen, v, id)).map(|s| s.value));
-    let mut text = String::from("% needs \\usepackage{booktabs}; a ? stands for a letter that LaTeX may not have: scores.csv has it\n\\begin{tabular}{l");
+    let mut text = String::from(
+        "% needs \\usepackage{booktabs}; a ? stands for a letter that LaTeX may not have: scores.csv has it\n\\begin{tabular}{l",
+    );
     text += &"r".repeat(COLUMNS.len());
     text += "}\n\\toprule\nvariant";
     for (id, name) in COLUMNS {

@@ -106,7 +106,11 @@ impl Drawing {
         for (index, point) in points.split_whitespace().enumerate() {
             let xy = point.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
             let (x, y) = xy.ok_or_else(|| format!("no point: {point}"))?;
-            if index == 0 { self.content.move_to(x, y) } else { self.content.line_to(x, y) };
+            if index == 0 {
+                self.content.move_to(x, y)
+            } else {
+                self.content.line_to(x, y)
+            };
         }
         self.content.close_path();
         Ok(())
@@ -130,7 +134,11 @@ impl Drawing {
                 }
                 _ => return Err(format!("a path with {part} cannot be drawn")),
             }
-            if step == "M" { self.content.move_to(x, y) } else { self.content.line_to(x, y) };
+            if step == "M" {
+                self.content.move_to(x, y)
+            } else {
+                self.content.line_to(x, y)
+            };
         }
         Ok(())
     }

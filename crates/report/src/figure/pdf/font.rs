@@ -11,7 +11,8 @@ const FILE: &[u8] = include_bytes!("../font/roboto-subset.ttf");
 const NAME: Name = Name(b"UMBRAG+Roboto-Regular");
 /// Drawn for what the font does not have.
 const UNKNOWN: char = '\u{fffd}';
-const IDENTITY: SystemInfo = SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
+const IDENTITY: SystemInfo =
+    SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
 /// The font, and which of its glyphs were used for which letters.
 pub(super) struct Font {

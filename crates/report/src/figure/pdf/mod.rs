@@ -77,7 +77,9 @@ mod tests {
 
     #[test]
     fn a_page_is_as_large_as_its_plot_and_the_same_each_time() {
-        let svg = format!("{OPEN}<line class=\"grid\" x1=\"1\" y1=\"2\" x2=\"3\" y2=\"4\"/><text x=\"0\" y=\"9\">\u{3bb} \u{4e2d}</text></svg>");
+        let svg = format!(
+            "{OPEN}<line class=\"grid\" x1=\"1\" y1=\"2\" x2=\"3\" y2=\"4\"/><text x=\"0\" y=\"9\">\u{3bb} \u{4e2d}</text></svg>"
+        );
         let pdf = pdf_of_plot(&svg, "a plot").expect("drawn");
         assert!(pdf.starts_with(b"%PDF-1.7"));
         let text = String::from_utf8_lossy(&pdf);
@@ -88,7 +90,8 @@ mod tests {
 
     #[test]
     fn what_cannot_be_drawn_is_an_error() {
-        for bad in ["<ellipse/>", "<path d=\"M0 0C1 1 2 2 3 3\"/>", "<line x1=\"a\"/>", "<circle cx=\"1\"/>"] {
+        for bad in ["<ellipse/>", "<path d=\"M0 0C1 1 2 2 3 3\"/>", "<line x1=\"a\"/>", "<circle cx=\"1\"/>"]
+        {
             let svg = format!("{OPEN}{bad}</svg>");
             assert!(pdf_of_plot(&svg, "").is_err(), "{bad}");
         }

@@ -1,6 +1,10 @@
 //! Figures of a stored run.
 
+mod animation;
+#[path = "../fixture/mod.rs"]
 mod fixture;
+mod names;
+mod pdf;
 
 use fixture::Device;
 use umbrage_frame::read_exr;
@@ -24,9 +28,17 @@ fn a_run_becomes_crops_plots_tables_and_animations() {
     let out = folder.path().join("figures");
     let written = write_figures(folder.path(), &request(), &out).expect("figures");
     let names: Vec<_> = written.iter().filter_map(|p| p.file_name()?.to_str()).collect();
-    for name in
-        ["crops.png", "crop-0.exr", "cost.svg", "swimming.svg", "scores.tex", "scores.csv", "path-follow.png"]
-    {
+    for name in [
+        "crops.png",
+        "crop-0.exr",
+        "cost.svg",
+        "cost.pdf",
+        "swimming.svg",
+        "swimming.pdf",
+        "scores.tex",
+        "scores.csv",
+        "path-follow.png",
+    ] {
         assert!(names.contains(&name) && out.join(name).is_file(), "{name} in {names:?}");
     }
     let inset = read_exr(&out.join("crop-0.exr")).expect("an EXR file");
@@ -61,4 +73,47 @@ fn what_a_run_does_not_have_is_said() {
     write_figures(folder.path(), &still, &out).expect("a still has figures too");
     let captions = std::fs::read_to_string(out.join("captions.txt")).expect("written");
     assert!(captions.contains("No frames are stored"), "{captions}");
+}
+
+/// The two files of a plot say the same: every piece of text, and as many shapes.
+#[test]
+fn a_plot_as_pdf_has_what_its_svg_has() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fixture::write(folder.path(), Device::Gpu, (64, 36)).expect("stored");
+    let out = folder.path().join("figures");
+    write_figures(folder.path(), &request(), &out).expect("figures");
+    for name in ["cost", "swimming"] {
+        let text = std::fs::read_to_string(out.join(format!("{name}.svg"))).expect("written");
+        let svg = roxmltree::Document::parse(&text).expect("XML");
+        let sheet = pdf::read(&std::fs::read(out.join(format!("{name}.pdf"))).expect("written"));
+        let elements = |name: &'static str| svg.descendants().filter(move |e| e.has_tag_name(name));
+        // A label is written twice: its outline lies under its letters.
+        let twice = |label: bool| if label { 2 } else { 1 };
+        let texts: Vec<&str> = elements("text")
+            .flat_map(|e| vec![e.text().unwrap_or_default(); twice(e.attribute("class") == Some("label"))])
+            .collect();
+        assert_eq!(sheet.texts, texts);
+        assert!(texts.contains(&"chss (light-matched)"), "names beside the plot: {texts:?}");
+        let shapes: usize =
+            ["line", "path", "polygon", "circle"].map(|name| elements(name).count()).iter().sum();
+        let painted = |o: &&String| ["S", "f", "B"].contains(&o.as_str());
+        assert_eq!(sheet.operators.iter().filter(painted).count(), shapes);
+    }
+}
+
+#[test]
+fn a_crop_outside_the_picture_is_refused() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fixture::write(folder.path(), Device::Software, (64, 36)).expect("stored");
+    let out = folder.path().join("figures");
+    // Beyond it, over its right edge by a pixel, and beyond what an edge can be added to.
+    for crop in [[64, 0, 1, 1], [49, 12, 16, 8], [u32::MAX, 0, 2, 2]] {
+        let asked = FigureRequest { crops: vec![[0, 0, 8, 8], crop], ..request() };
+        let message = write_figures(folder.path(), &asked, &out).expect_err("refused").to_string();
+        let [x, y, w, h] = crop;
+        assert!(message.contains(&format!("{x},{y},{w},{h}")) && message.contains("64x36"), "{message}");
+        assert!(!out.exists(), "nothing is written before");
+    }
+    let whole = FigureRequest { crops: vec![[0, 0, 64, 36]], ..request() };
+    write_figures(folder.path(), &whole, &out).expect("all of it is inside");
 }
