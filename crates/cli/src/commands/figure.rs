@@ -22,7 +22,12 @@ pub(crate) fn run(args: &FigureArgs) -> Result<(), CliError> {
         file.extension().is_some_and(|e| e == "png")
             && file.file_stem().is_some_and(|s| s.to_string_lossy().starts_with("path-"))
     };
-    for file in files.iter().filter(is_animated) {
+    let animated: Vec<&PathBuf> = files.iter().filter(is_animated).collect();
+    // Videos of an earlier run must not pass for this one's.
+    for file in &animated {
+        let _ = std::fs::remove_file(file.with_extension("mp4"));
+    }
+    for file in animated {
         match video(file) {
             Ok(video) => print(&format!("{} (lossy: an illustration, not data)", video.display()))?,
             Err(NoVideo::NoProgram) => {
@@ -45,8 +50,6 @@ enum NoVideo {
 /// The same as a video.
 fn video(file: &Path) -> Result<PathBuf, NoVideo> {
     let to = file.with_extension("mp4");
-    // One of an earlier run must not pass for this one's.
-    let _ = std::fs::remove_file(&to);
     // Its colours have half the resolution, which has to be whole; players know no other kind.
     let even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
     let made = Command::new("ffmpeg")
@@ -65,7 +68,7 @@ fn video(file: &Path) -> Result<PathBuf, NoVideo> {
     match made {
         Ok(output) if output.status.success() => Ok(to),
         Ok(output) => {
-            // Nor half a video for a whole one.
+            // Half a video must not pass for a whole one.
             let _ = std::fs::remove_file(&to);
             let said = String::from_utf8_lossy(&output.stderr);
             let last = said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it failed");
