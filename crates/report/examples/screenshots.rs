@@ -9,6 +9,7 @@ mod browser;
 
 use browser::Browser;
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use umbrage_frame::{Image, read_exr};
@@ -20,7 +21,9 @@ const SCREEN: (u32, u32) = (1400, 1100);
 /// What is shown: a variant that swims in a place that has everything.
 const SHOWN: (&str, &str, &str) = ("colonnade", "P4", "chss-mask");
 /// Above and below what is shown, in pixels.
-const MARGIN: f64 = 18.0;
+const MARGIN: f64 = 6.0;
+/// What a README can bear, in bytes.
+const LARGEST: usize = 200_000;
 
 fn main() -> Outcome<()> {
     let arguments: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
@@ -81,10 +84,12 @@ impl Shown {
 
     /// Truth to the left of the slider, the variant to the right; the cursor on the point.
     fn look(&self, browser: &mut Browser) {
+        // The viewer starts when it comes into sight.
+        browser.eval("document.querySelector('.stage').scrollIntoView({ block: 'center' })");
+        browser.wait("document.querySelector('.stage').dataset.ready === 'true'");
         choose(browser, "select.where", &self.window.to_string());
         choose(browser, "select.left", "truth");
         choose(browser, "select.right", &format!("v{}-shadow", self.variant));
-        browser.eval("document.querySelector('.stage').scrollIntoView({ block: 'center' })");
         browser.wait("document.querySelector('.stage').dataset.ready === 'true'");
         browser.eval("document.querySelector('.stage').focus({ preventScroll: true })");
         self.point_at(browser);
@@ -102,6 +107,10 @@ impl Shown {
 
     /// The point pinned, a frame shown from its own camera.
     fn follow(&self, browser: &mut Browser) {
+        // A picture of more than the screen moves the page under the pointer.
+        browser.eval("document.querySelector('.stage').scrollIntoView({ block: 'center' })");
+        browser.point([2.0, 2.0]);
+        self.point_at(browser);
         browser.key("p");
         browser.wait("document.querySelector('.point svg path') !== null");
         browser.key(".");
@@ -129,8 +138,48 @@ fn keep(browser: &mut Browser, (from, to): (&str, &str), file: &Path) -> Outcome
         "Page.captureScreenshot",
         json!({ "format": "png", "clip": clip, "captureBeyondViewport": true }),
     );
-    let bytes = base64::decode(shot["data"].as_str().unwrap_or_default())?;
+    let bytes = small(&base64::decode(shot["data"].as_str().unwrap_or_default())?)?;
+    if bytes.len() > LARGEST {
+        return Err(
+            format!("{} would have {} bytes, more than {LARGEST}", file.display(), bytes.len()).into()
+        );
+    }
     std::fs::write(file, &bytes)?;
     println!("{} ({} KB)", file.display(), bytes.len().div_ceil(1000));
     Ok(())
+}
+
+/// The same picture with 256 colours, each chosen where those before it are furthest from most pixels: the few
+/// pixels of a marker keep their hue beside the many between a letter and its paper.
+fn small(file: &[u8]) -> Outcome<Vec<u8>> {
+    let picture = image::load_from_memory(file)?.to_rgb8();
+    let mut counts: BTreeMap<[u8; 3], u64> = BTreeMap::new();
+    picture.pixels().for_each(|p| *counts.entry(p.0).or_default() += 1);
+    let far = |a: [u8; 3], b: [u8; 3]| (0..3).map(|i| u64::from(a[i].abs_diff(b[i])).pow(2)).sum::<u64>();
+    // Of each colour: how often, how far from the nearest in the palette, and which that is.
+    let mut colours: Vec<([u8; 3], u64, u64, u8)> =
+        counts.into_iter().map(|(c, n)| (c, n, u64::MAX >> 32, 0)).collect();
+    let mut palette: Vec<[u8; 3]> = Vec::new();
+    while let Some(worst) =
+        colours.iter().max_by_key(|c| c.1 * c.2).filter(|c| c.2 > 0 && palette.len() < 256)
+    {
+        let (chosen, place) = (worst.0, palette.len() as u8);
+        palette.push(chosen);
+        for colour in &mut colours {
+            let distance = far(colour.0, chosen);
+            if distance < colour.2 {
+                (colour.2, colour.3) = (distance, place);
+            }
+        }
+    }
+    let places: BTreeMap<[u8; 3], u8> = colours.iter().map(|c| (c.0, c.3)).collect();
+    let indices: Vec<u8> = picture.pixels().map(|p| places[&p.0]).collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(palette.concat());
+    encoder.set_compression(png::Compression::High);
+    encoder.write_header()?.write_image_data(&indices)?;
+    Ok(bytes)
 }
