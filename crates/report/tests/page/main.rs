@@ -4,6 +4,7 @@
 mod browser;
 #[path = "../fixture/mod.rs"]
 mod fixture;
+mod print;
 
 use browser::Browser;
 use fixture::{Device, scorecard};
