@@ -3,7 +3,7 @@
 use super::Chosen;
 use crate::ReportError;
 use crate::picture::{png_of_rgb, shade};
-use crate::store::read_variant;
+use crate::store::{read_variant, scorecard_path};
 use std::path::{Path, PathBuf};
 use umbrage_frame::{Image, Layer, write_exr};
 
@@ -11,6 +11,8 @@ use umbrage_frame::{Image, Layer, write_exr};
 const GAP: u32 = 8;
 /// Around an inset and its place; told apart by colour-blind readers.
 const FRAMES: [[u8; 3]; 4] = [[230, 97, 1], [94, 60, 153], [0, 114, 178], [0, 158, 115]];
+/// Pixels of a figure: 0.8 GB of colours.
+const LARGEST: u64 = 1 << 28;
 const PAPER: [u8; 3] = [255; 3];
 
 /// A picture, its name, and the same as a name of a layer.
@@ -55,7 +57,7 @@ pub(super) fn write(
 ) -> Result<(String, Vec<PathBuf>), ReportError> {
     let panels = panels(chosen)?;
     let crops = &chosen.crops;
-    put("crops.png", &png_of_rgb("crops", &sheet(&panels, crops, chosen.times))?)?;
+    put("crops.png", &png_of_rgb("crops", &sheet(chosen, &panels)?)?)?;
     let mut values = Vec::new();
     for (index, &crop) in crops.iter().enumerate() {
         let layers: Vec<Layer> = panels.iter().map(|p| (p.layer.clone(), cut(&p.plane, crop))).collect();
@@ -83,14 +85,31 @@ pub(super) fn cut(plane: &Image<f32>, [left, top, width, height]: [u32; 4]) -> I
     Image::from_fn(width, height, |x, y| *plane.at(left + x, top + y))
 }
 
-fn sheet(panels: &[Panel], crops: &[[u32; 4]], times: u32) -> Image<[u8; 3]> {
+/// Refuses a picture that would fill the memory of a machine.
+pub(super) fn check_size(chosen: &Chosen, (columns, rows): (u32, u32)) -> Result<(), ReportError> {
+    if u64::from(columns) * u64::from(rows) <= LARGEST {
+        return Ok(());
+    }
+    let reason = format!(
+        "a figure of {columns}x{rows} pixels is too large: fewer variants, a smaller --times, or insets that are less tall"
+    );
+    Err(ReportError::Request { path: scorecard_path(chosen.run), reason })
+}
+
+fn sheet(chosen: &Chosen, panels: &[Panel]) -> Result<Image<[u8; 3]>, ReportError> {
+    let (crops, times) = (&chosen.crops, chosen.times);
     let (width, height) = (panels[0].plane.width() * times, panels[0].plane.height() * times);
     // Insets share a panel's width.
     let count = crops.len().max(1) as u32;
     let inset = width.saturating_sub((count - 1) * GAP) / count;
+    if inset == 0 {
+        let reason = format!("{count} insets do not fit under a picture of {width} pixels");
+        return Err(ReportError::Request { path: scorecard_path(chosen.run), reason });
+    }
     let tall = crops.iter().map(|c| inset * c[3] / c[2]).max().unwrap_or(0);
     let rows = if tall > 0 { height + GAP + tall } else { height };
     let columns = panels.len() as u32 * (width + GAP) - GAP;
+    check_size(chosen, (columns, rows))?;
     let mut sheet = Image::filled(columns, rows, PAPER);
     for (index, panel) in panels.iter().enumerate() {
         let left = index as u32 * (width + GAP);
@@ -108,7 +127,7 @@ fn sheet(panels: &[Panel], crops: &[[u32; 4]], times: u32) -> Image<[u8; 3]> {
             frame(&mut sheet, place, colour);
         }
     }
-    sheet
+    Ok(sheet)
 }
 
 /// Draws a part of a plane into a rectangle, by nearest pixels.

@@ -1,7 +1,7 @@
 //! A path as an animation: with every surface point held where it is, and as its cameras see it.
 
 use super::Chosen;
-use super::crops::{cut, one_line};
+use super::crops::{check_size, cut, one_line};
 use super::points::maps;
 use crate::ReportError;
 use crate::picture::shade;
@@ -46,8 +46,8 @@ pub(super) fn write(
     let camera = |t: usize| columns.iter().map(|c| moved(&c[t], &maps[t])).collect::<Vec<_>>();
     let zoom =
         crop.map_or(chosen.times, |c| (chosen.times * surface.depth.width()).div_ceil(2 * c[2]).max(1));
-    put("path-follow.png", &animation(frames, zoom, follow)?)?;
-    put("path-camera.png", &animation(frames, chosen.times, camera)?)?;
+    put("path-follow.png", &animation(chosen, (frames, zoom), follow)?)?;
+    put("path-camera.png", &animation(chosen, (frames, chosen.times), camera)?)?;
     let names: Vec<String> =
         variants.iter().map(|&v| one_line(&full_name(&chosen.card.variants[v]))).collect();
     Ok(format!(
@@ -66,14 +66,15 @@ fn truth(chosen: &Chosen, frames: usize) -> Result<Vec<Image<f32>>, ReportError>
 }
 
 fn animation(
-    frames: usize,
-    times: u32,
+    chosen: &Chosen,
+    (frames, times): (usize, u32),
     frame: impl Fn(usize) -> Vec<Image<f32>>,
 ) -> Result<Vec<u8>, ReportError> {
     let broken = |e: png::EncodingError| ReportError::Picture { name: "path".into(), reason: e.to_string() };
     let first = frame(0);
     let (width, height) = (first[0].width() * times, first[0].height() * times);
     let columns = first.len() as u32 * (width + GAP) - GAP;
+    check_size(chosen, (columns, height))?;
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, columns, height);
     encoder.set_color(ColorType::Rgb);

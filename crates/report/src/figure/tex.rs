@@ -58,6 +58,8 @@ fn letter(c: char) -> String {
         '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),
         // An empty line would end the cell.
         c if c.is_control() => " ".into(),
+        // The old encoding does not have these.
+        'Ð' | 'Þ' | 'ð' | 'þ' => "?".into(),
         // Letters with accents; the signs before them ask for packages.
         ' '..='~' | 'À'..='ÿ' => c.into(),
         _ => "?".into(),

@@ -117,3 +117,17 @@ fn a_crop_outside_the_picture_is_refused() {
     let whole = FigureRequest { crops: vec![[0, 0, 64, 36]], ..request() };
     write_figures(folder.path(), &whole, &out).expect("all of it is inside");
 }
+
+#[test]
+fn a_figure_that_no_machine_holds_is_refused() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fixture::write(folder.path(), Device::Software, (64, 36)).expect("stored");
+    let out = folder.path().join("figures");
+    // An inset as wide as its panel of 1024, of a pixel by 36, is 36,864 high; eight of them stand in a row.
+    let tall = FigureRequest { variants: vec![], crops: vec![[0, 0, 1, 36]], times: 16, ..request() };
+    let many = FigureRequest { crops: vec![[0, 0, 8, 8]; 20], times: 1, ..request() };
+    for (asked, words) in [(tall, "is too large"), (many, "20 insets do not fit")] {
+        let message = write_figures(folder.path(), &asked, &out).expect_err("refused").to_string();
+        assert!(message.contains(words), "{message}");
+    }
+}
