@@ -52,7 +52,9 @@ fn closed(points: &[Option<usize>], width: usize) -> Vec<Option<usize>> {
     };
     let pixel = |(at, &point): (usize, &Option<usize>)| {
         let inside = at % width > 0 && at % width + 1 < width;
-        point.or_else(|| across(at, 1).filter(|_| inside)).or_else(|| across(at, width))
+        // Where two cracks cross, there are points at the corners only.
+        let slanted = || across(at, width + 1).or_else(|| across(at, width - 1)).filter(|_| inside);
+        point.or_else(|| across(at, 1).filter(|_| inside)).or_else(|| across(at, width)).or_else(slanted)
     };
     points.iter().enumerate().map(pixel).collect()
 }
@@ -63,10 +65,13 @@ mod tests {
 
     #[test]
     fn a_crack_is_closed_and_an_edge_is_not() {
-        let points = [Some(0), None, Some(2), None, None, Some(5), None, Some(7), Some(8)];
-        // In rows of three: the first crack lies between two points; the first pixel of the second row between one
-        // above and nothing below; the second of it has none on either side that counts.
+        // In rows of three: a crack in the first row, and one that crosses it through the middle.
+        let points = [Some(0), None, Some(2), None, None, None, Some(6), None, Some(8)];
         let filled = closed(&points, 3);
-        assert_eq!(filled, [Some(0), Some(0), Some(2), None, None, Some(5), None, Some(7), Some(8)]);
+        let [a, b] = [Some(0), Some(2)];
+        assert_eq!(filled, [a, a, b, a, a, b, Some(6), Some(6), Some(8)]);
+        // Beyond the last row and the last column there is nothing to close up with.
+        let open = [Some(0), Some(1), None, Some(3), Some(4), None, None, None, None];
+        assert_eq!(closed(&open, 3), open);
     }
 }
