@@ -39,7 +39,7 @@ fn of_variant(card: &Scorecard, sums: &Baseline, of: &BaselineSums) -> Vec<Trace
     let (Some(window), Some(variant)) = (window, variant) else { return Vec::new() };
     let tables = [&of.cells, &of.profile, &of.blocks].map(|rows| BaselineSums::table(rows, place));
     let worst_frame = of.per_frame.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-    let frame = worst_frame.filter(|f| *f.1 > 0.0).map(|f| place.first_frame + f.0 as u32);
+    let frame = worst_frame.filter(|f| *f.1 > 0.0).map(|f| place.first_frame + f.0 as u32 * place.step);
     // A cluster is 2x2 tiles.
     let side = 2 * card.provenance.tile_px;
     let trace = |(metric, number): (&'static str, PooledNumber)| {

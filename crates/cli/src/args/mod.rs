@@ -269,6 +269,9 @@ pub(crate) struct ListArgs {
     /// Of what.
     #[arg(value_enum)]
     pub(crate) what: Listed,
+    /// Paths or lights of this scene alone: a built-in one, scene.toml, OBJ or glTF.
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) own: TechniqueArgs,
     /// As JSON.
@@ -280,6 +283,8 @@ pub(crate) struct ListArgs {
 pub(crate) enum Listed {
     Scenes,
     Paths,
+    /// With the number that --light takes.
+    Lights,
     Variants,
     Metrics,
     Adapters,

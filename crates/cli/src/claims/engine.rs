@@ -113,7 +113,7 @@ impl Run<'_> {
         let frames = &path.frames[first as usize..(first + count) as usize];
         let reads_pixels = variants.values().flatten().any(Measure::reads_pixels);
         let readings = if reads_pixels { Readings::Both } else { Readings::Anchored };
-        let request = Request { scene, path, first, frames, readings };
+        let request = Request { scene, path, first, step: 1, frames, readings };
         let window = Window::new(&request, (finder, &self.truths, Some(renderer)), &self.settings.sampling)?;
         if window.disagreement() > DISAGREEMENT_LIMIT {
             self.refuse(place, "truth and raster see different surfaces", variants);

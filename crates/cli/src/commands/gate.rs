@@ -122,7 +122,14 @@ pub(super) fn place_of(base: &str, adapter: &AdapterCard, baselines: &Path) -> R
 fn find(base: &str, adapter: &AdapterCard, baselines: &Path) -> Result<(Baseline, String), CliError> {
     let found = Baseline::load(&place_of(base, adapter, baselines)?)?;
     let stem = Path::new(base).file_stem().map_or_else(|| base.into(), |s| s.to_string_lossy());
-    Ok((found, stem.split('.').next().unwrap_or(base).to_string()))
+    Ok((found, stem.split('.').next().map_or_else(String::new, name_from)))
+}
+
+/// A folder's name as that of a baseline: "run 1" is "run-1", so that `accept` takes it.
+fn name_from(stem: &str) -> String {
+    let safe = |c: char| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' };
+    let name: String = stem.chars().map(safe).collect();
+    if name.is_empty() { "base".into() } else { name }
 }
 
 /// Says what was found, and marks it for GitHub where that is what runs this.

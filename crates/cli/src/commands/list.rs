@@ -4,9 +4,11 @@ use crate::args::{ListArgs, Listed};
 use crate::error::CliError;
 use crate::output::print;
 use crate::own;
+use crate::run::provenance::describe_light;
+use crate::scenes::find_scene;
 use serde_json::{Value, json};
 use umbrage_metrics::METRICS;
-use umbrage_scene::{Scene, builtin_names};
+use umbrage_scene::{AreaLight, CameraPath, Scene, builtin_names};
 use umbrage_shadows::{Calibration, VARIANTS, VariantId, adapters};
 
 /// A heading and rows: one shape for text and JSON.
@@ -16,9 +18,13 @@ struct Table {
 }
 
 pub(crate) fn run(args: &ListArgs) -> Result<(), CliError> {
+    if args.scene.is_some() && !matches!(args.what, Listed::Paths | Listed::Lights) {
+        return Err(CliError::Usage("--scene is for paths and lights".into()));
+    }
     let table = match args.what {
         Listed::Scenes => scenes()?,
-        Listed::Paths => paths()?,
+        Listed::Paths => paths(args)?,
+        Listed::Lights => lights(args)?,
         Listed::Variants => variants(args)?,
         Listed::Metrics => metrics(),
         Listed::Adapters => adapter_table(),
@@ -41,20 +47,30 @@ fn scenes() -> Result<Table, CliError> {
     Ok(Table { columns: &["scene", "triangles", "paths", "title"], rows })
 }
 
-fn paths() -> Result<Table, CliError> {
-    let mut rows = Vec::new();
-    for name in builtin_names() {
-        let scene = Scene::builtin(name)?;
-        for path in &scene.paths {
-            rows.push(vec![
-                name.to_string(),
-                path.name.clone(),
-                path.frames.len().to_string(),
-                path.title.clone(),
-            ]);
-        }
+/// The scene that was asked for, or those that come with the program.
+fn asked(args: &ListArgs) -> Result<Vec<Scene>, CliError> {
+    match &args.scene {
+        Some(scene) => Ok(vec![find_scene(scene)?.0]),
+        None => Ok(builtin_names().map(Scene::builtin).collect::<Result<_, _>>()?),
     }
+}
+
+fn paths(args: &ListArgs) -> Result<Table, CliError> {
+    let scenes = asked(args)?;
+    let row = |scene: &Scene, path: &CameraPath| {
+        vec![scene.name.clone(), path.name.clone(), path.frames.len().to_string(), path.title.clone()]
+    };
+    let rows = scenes.iter().flat_map(|s| s.paths.iter().map(|p| row(s, p))).collect();
     Ok(Table { columns: &["scene", "path", "frames", "title"], rows })
+}
+
+fn lights(args: &ListArgs) -> Result<Table, CliError> {
+    let scenes = asked(args)?;
+    let row = |scene: &Scene, (i, light): (usize, &AreaLight)| {
+        vec![scene.name.clone(), (i + 1).to_string(), describe_light(light)]
+    };
+    let rows = scenes.iter().flat_map(|s| s.lights.iter().enumerate().map(|l| row(s, l))).collect();
+    Ok(Table { columns: &["scene", "--light", "light"], rows })
 }
 
 fn variants(args: &ListArgs) -> Result<Table, CliError> {

@@ -184,7 +184,7 @@ impl Run<'_> {
                 let frames = &path.frames[first as usize..(first + window_frames) as usize];
                 self.progress.say(format!("{}, {name}: truth", scene.name));
                 let request =
-                    window::Request { scene, path, first, frames, readings: window::Readings::Both };
+                    window::Request { scene, path, first, step: 1, frames, readings: window::Readings::Both };
                 let window = Window::new(
                     &request,
                     (&mut finder, &self.cache, Some(&mut renderer)),

@@ -128,7 +128,7 @@ pub(super) fn hash_of(scene: &Scene) -> String {
     scene.content_hash().iter().take(16).map(|b| format!("{b:02x}")).collect()
 }
 
-pub(super) fn describe_light(light: &AreaLight) -> String {
+pub(crate) fn describe_light(light: &AreaLight) -> String {
     match *light {
         AreaLight::Sun { angular_diameter_radians, direction_to_light: d } => format!(
             "sun, {:.3} degrees across, elevation {:.1} degrees, azimuth {:.1} degrees (+x to +z)",

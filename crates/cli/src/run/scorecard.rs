@@ -200,6 +200,7 @@ fn window_card(entry: &Scored, results: &[ResultCard]) -> WindowCard {
         path: facts.path.clone(),
         first_frame: facts.first,
         frames: facts.frames,
+        step: facts.step,
         speed: facts.title.clone(),
         anchors: facts.coverage.counted as u64,
         tiles: facts.tiles as u64,

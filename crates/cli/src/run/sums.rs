@@ -50,6 +50,7 @@ pub(super) fn of(
             path: facts.path.clone(),
             first_frame: facts.first,
             frames: facts.frames,
+            step: facts.step,
             views: facts.views.clone(),
             clusters,
         });

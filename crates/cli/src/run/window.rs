@@ -17,6 +17,8 @@ pub(crate) struct Request<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) path: &'a CameraPath,
     pub(crate) first: u32,
+    /// Numbers from a frame to the next.
+    pub(crate) step: u32,
     pub(crate) frames: &'a [PathFrame],
     pub(crate) readings: Readings,
 }
@@ -37,6 +39,8 @@ pub(crate) struct Window {
     pub(crate) scene: String,
     pub(crate) path: String,
     pub(crate) first: u32,
+    /// Numbers from a frame to the next.
+    pub(super) step: u32,
     /// View and light of each frame.
     pub(crate) frames: Vec<(View, AreaLight)>,
     /// Per frame, the views of those before it, newest first, also from before the window.
@@ -62,6 +66,8 @@ pub(crate) struct Facts {
     pub(crate) path: String,
     pub(crate) first: u32,
     pub(crate) frames: u32,
+    /// Numbers from a frame to the next.
+    pub(crate) step: u32,
     pub(crate) title: String,
     pub(crate) coverage: Coverage,
     pub(crate) tiles: usize,
@@ -128,6 +134,7 @@ impl Window {
             scene: request.scene.name.clone(),
             path: request.path.name.clone(),
             first: request.first,
+            step: request.step,
             shading: shading(request.scene, &hits, &middle_light),
             frames,
             pasts,
@@ -228,6 +235,7 @@ impl Window {
             path: self.path.clone(),
             first: self.first,
             frames: self.frames.len() as u32,
+            step: self.step,
             title: path.title.clone(),
             coverage: self.coverage,
             tiles: self.tiling.tiles.iter().filter(|t| !t.penumbra.is_empty()).count(),

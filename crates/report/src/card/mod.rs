@@ -111,6 +111,16 @@ impl Scorecard {
     }
 }
 
+/// Of frames that skip no number.
+pub(crate) const fn one() -> u32 {
+    1
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the shape that serde asks for")]
+pub(crate) const fn is_one(step: &u32) -> bool {
+    *step == 1
+}
+
 /// The JSON schema of `scorecard.json`. A copy is shipped as `scorecard.schema.json`.
 pub fn scorecard_schema() -> String {
     let schema = schemars::schema_for!(Scorecard);

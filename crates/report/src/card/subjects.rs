@@ -15,6 +15,9 @@ pub struct WindowCard {
     pub first_frame: u32,
     /// Frames in the window, T.
     pub frames: u32,
+    /// Numbers from a frame to the next: above 1 where another program's frames skip some.
+    #[serde(default = "crate::card::one", skip_serializing_if = "crate::card::is_one")]
+    pub step: u32,
     /// What moves, and how fast: "camera, 2.00 m/s forward".
     pub speed: String,
     /// Anchors that were scored.

@@ -45,6 +45,9 @@ pub struct BaselineWindow {
     pub first_frame: u32,
     /// Frames in the window, T.
     pub frames: u32,
+    /// Numbers from a frame to the next: above 1 where another program's frames skip some.
+    #[serde(default = "crate::card::one", skip_serializing_if = "crate::card::is_one")]
+    pub step: u32,
     /// Hash over the cameras and the light of every frame.
     pub views: String,
     /// Column and row of each cluster of 2x2 tiles, in the order of the sums.

@@ -74,8 +74,8 @@ fn short(hash: &str) -> String {
 
 impl BaselineWindow {
     fn same_place(&self, other: &Self) -> bool {
-        (&self.scene, &self.path, self.first_frame, self.frames)
-            == (&other.scene, &other.path, other.first_frame, other.frames)
+        (&self.scene, &self.path, self.first_frame, self.frames, self.step)
+            == (&other.scene, &other.path, other.first_frame, other.frames, other.step)
     }
 }
 
@@ -219,7 +219,7 @@ impl Pair<'_> {
         let [base, now] = self.sums.map(|s| &s.per_frame);
         let harm = now.iter().zip(base).map(|(n, b)| n - b);
         let worst = harm.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        (worst.1 > 0.0).then(|| self.window.first_frame + worst.0 as u32)
+        (worst.1 > 0.0).then(|| self.window.first_frame + worst.0 as u32 * self.window.step)
     }
 }
 

@@ -67,10 +67,11 @@ fn window(card: &Scorecard, book: &Book, index: usize) -> Markup {
 
 fn facts(card: &Scorecard, index: usize) -> Markup {
     let w = &card.windows[index];
-    let last = w.first_frame + w.frames.saturating_sub(1);
+    let last = w.first_frame + w.frames.saturating_sub(1) * w.step;
     html! {
         p.muted {
             @if w.frames == 1 { "Frame " (w.first_frame) } @else { "Frames " (w.first_frame) " to " (last) }
+            @if w.step > 1 { ", every " (w.step) }
             " · " (count(w.anchors)) " points in " (count(w.tiles)) " penumbra tiles · "
             @if w.picture > 0.0 { (percent(w.picture)) " of the picture scored, " }
             (percent(w.coverage)) " of the points that face the light"

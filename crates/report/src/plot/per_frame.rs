@@ -52,7 +52,8 @@ fn lines(card: &Scorecard, window: usize, moving: &[&ResultCard]) -> Markup {
     let at_x = |frame: usize| LEFT + frame as f64 / (frames - 1) as f64 * (WIDTH - LEFT - RIGHT);
     let at_y = |v: f64| HEIGHT - BOTTOM - y.at(v) * (HEIGHT - TOP - BOTTOM);
     let power = Power::of(std::iter::once(high));
-    let first = card.windows.get(window).map_or(0, |w| w.first_frame as usize);
+    let (first, step) =
+        card.windows.get(window).map_or((0, 1), |w| (w.first_frame as usize, w.step as usize));
     // At most about sixteen numbers under the axis.
     let every = frames.div_ceil(16);
     html! {
@@ -65,7 +66,7 @@ fn lines(card: &Scorecard, window: usize, moving: &[&ResultCard]) -> Markup {
                 text.tick x=(p(LEFT - 8.0)) y=(p(at_y(tick) + 4.0)) text-anchor="end" { (Axis::tick_label(power, tick)) }
             }
             @for frame in (0..frames).step_by(every) {
-                text.tick x=(p(at_x(frame))) y=(p(HEIGHT - BOTTOM + 20.0)) text-anchor="middle" { (first + frame) }
+                text.tick x=(p(at_x(frame))) y=(p(HEIGHT - BOTTOM + 20.0)) text-anchor="middle" { (first + frame * step) }
             }
             text.axis x=(p(WIDTH - RIGHT)) y=(p(HEIGHT - 4.0)) text-anchor="end" { "frame" }
             text.axis x="0" y="10" {

@@ -1,4 +1,4 @@
-//! `cameras.json`, and NeRF's `transforms.json`.
+//! `cameras.json`.
 
 use super::convention::{Axis, Convention, Handedness, MatrixOrder, Preset, VectorKind};
 use schemars::JsonSchema;
@@ -93,25 +93,9 @@ pub struct FrameJson {
     /// How far temporal antialiasing shifts the picture, in pixels; must be 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub jitter: Option<[f64; 2]>,
-}
-
-/// NeRF's and nerfstudio's format: OpenGL's camera axes, rows, a horizontal field of view.
-#[derive(Deserialize, Debug)]
-pub(super) struct Transforms {
-    camera_angle_x: Option<f64>,
-    fl_x: Option<f64>,
-    fl_y: Option<f64>,
-    cx: Option<f64>,
-    cy: Option<f64>,
-    w: Option<f64>,
-    h: Option<f64>,
-    frames: Vec<TransformsFrame>,
-}
-
-#[derive(Deserialize, Debug)]
-struct TransformsFrame {
-    file_path: String,
-    transform_matrix: [[f64; 4]; 4],
+    /// The picture must be square: a horizontal field of view was given without a size.
+    #[serde(skip)]
+    pub square: bool,
 }
 
 impl ConventionJson {
@@ -139,62 +123,4 @@ impl ConventionJson {
             _ => Ok(convention),
         }
     }
-}
-
-impl Transforms {
-    /// The same in `cameras.json`'s terms. The world is Blender's unless told otherwise: that is what these
-    /// files are made in.
-    pub(super) fn into_cameras(self) -> Result<CamerasJson, String> {
-        let aspect = |width: f64, height: f64| if height > 0.0 { width / height } else { 1.0 };
-        let centred = |at: Option<f64>, size: Option<f64>| match (at, size) {
-            (Some(at), Some(size)) => (at - 0.5 * size).abs() <= 0.5,
-            _ => true,
-        };
-        if !centred(self.cx, self.w) || !centred(self.cy, self.h) {
-            return Err("cx and cy are off the centre: lenses that are shifted cannot be scored".into());
-        }
-        let yfov = match (self.fl_y.or(self.fl_x), self.h, self.camera_angle_x, self.w) {
-            (Some(focal), Some(height), ..) => 2.0 * (0.5 * height / focal).atan(),
-            (_, Some(height), Some(xfov), Some(width)) => {
-                2.0 * ((0.5 * xfov).tan() / aspect(width, height)).atan()
-            }
-            // A square picture, as NeRF's own have; the pictures' size is checked against it.
-            (_, _, Some(xfov), _) => xfov,
-            _ => return Err("has neither camera_angle_x nor fl_y with h".into()),
-        };
-        let whole = |size: Option<f64>| size.map(|s| s as u32);
-        let square = self.w.is_none() && self.fl_y.is_none();
-        let frame = |(place, frame): (usize, TransformsFrame)| FrameJson {
-            index: Some(trailing_number(&frame.file_path).unwrap_or(place as u32)),
-            time: None,
-            file: Some(frame.file_path),
-            world_from_camera: std::array::from_fn(|i| frame.transform_matrix[i / 4][i % 4]),
-            yfov,
-            near: None,
-            far: None,
-            width: whole(self.w),
-            height: whole(self.h),
-            jitter: None,
-        };
-        let mut frames: Vec<FrameJson> = self.frames.into_iter().enumerate().map(frame).collect();
-        if square {
-            // Said by a ratio of 1: any size will do that has it.
-            frames.iter_mut().for_each(|f| (f.width, f.height) = (Some(0), Some(0)));
-        }
-        let convention = ConventionJson {
-            preset: Some(Preset::Blender),
-            matrix_order: Some(MatrixOrder::Row),
-            ..ConventionJson::default()
-        };
-        Ok(CamerasJson { version: VERSION, convention, fps: None, frames })
-    }
-}
-
-/// "./train/r_12.png" is 12.
-fn trailing_number(file: &str) -> Option<u32> {
-    let name = file.rsplit(['/', '\\']).next()?;
-    let stem =
-        name.rsplit_once('.').filter(|(_, end)| end.parse::<u32>().is_err()).map_or(name, |(stem, _)| stem);
-    let digits = stem.len() - stem.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-    stem[stem.len() - digits..].parse().ok()
 }

@@ -7,6 +7,7 @@ mod convention;
 mod file;
 #[cfg(test)]
 mod tests;
+mod transforms;
 
 pub use convention::{Axis, Convention, Handedness, MatrixOrder, Preset, VectorKind};
 pub use file::{CamerasJson, ConventionJson, FrameJson};
@@ -71,7 +72,10 @@ impl CameraFile {
         let refuse = |message: String| SceneError::value(path, message);
         let any: serde_json::Value = serde_json::from_str(text).map_err(syntax)?;
         let mut cameras: CamerasJson = if any.get("frames").is_some_and(has_transforms) {
-            serde_json::from_str::<file::Transforms>(text).map_err(syntax)?.into_cameras().map_err(refuse)?
+            serde_json::from_str::<transforms::Transforms>(text)
+                .map_err(syntax)?
+                .into_cameras()
+                .map_err(refuse)?
         } else {
             serde_json::from_str(text).map_err(syntax)?
         };
@@ -121,8 +125,7 @@ impl CameraFile {
                 far_world: metres(frame.far, 1e5),
             };
             let time_secs = frame.time.unwrap_or(place as f64 / self.frames_per_second) as f32;
-            let square = frame.width == Some(0);
-            let size = frame.width.zip(frame.height).filter(|_| !square);
+            let (size, square) = (frame.width.zip(frame.height), frame.square);
             all.push(FrameCamera { index, time_secs, camera, size, square });
         }
         all.sort_by_key(|frame| frame.index);
@@ -144,6 +147,16 @@ impl CameraFile {
             let refuse = |message: String| Err(self.refuse(place, message));
             if !seen.insert(frame.index.unwrap_or(place as u32)) {
                 return refuse("is there twice".into());
+            }
+            match (frame.width, frame.height) {
+                (Some(1..), Some(1..)) | (None, None) => {}
+                (Some(_), Some(_)) => return refuse("width and height must be above 0".into()),
+                (Some(_), None) => {
+                    return refuse("has a width without a height: give both, or neither".into());
+                }
+                (None, Some(_)) => {
+                    return refuse("has a height without a width: give both, or neither".into());
+                }
             }
             if frame.world_from_camera.iter().any(|v| !v.is_finite()) {
                 return refuse("world_from_camera is not finite".into());

@@ -97,6 +97,8 @@ fn what_cannot_be_is_refused_with_its_frame() {
     refused(text("{\"right\": \"-x\"}", numbers), "mirrors the picture");
     let twice = good.replace("\"frames\": [", "\"frames\": [{\"index\": 4, \"yfov\": 1, \"world_from_camera\": [1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}, ");
     refused(twice, "frame 4: is there twice");
+    refused(good.replace("0.8", "0.8, \"width\": 320"), "frame 4: has a width without a height");
+    refused(good.replace("0.8", "0.8, \"width\": 0, \"height\": 0"), "width and height must be above 0");
     refused(good[..40].to_string(), "cameras.json:1:");
 }
 
@@ -112,6 +114,30 @@ fn transforms_are_read_as_blender_writes_them() {
     assert!((frames[0].camera.yfov_radians - 2.0 * (0.5f32.tan() / 2.0).atan()).abs() < 1e-6);
     assert!(read(&text.replace("\"w\"", "\"cx\": 90, \"w\"")).expect_err("off").contains("off the centre"));
     assert!(read(&text.replace("\"w\": 200, \"h\": 100,", "")).expect("square")[0].square);
+}
+
+#[test]
+fn a_frame_may_have_a_lens_of_its_own() {
+    let text = |all: &str, own: &str| {
+        format!(
+            "{{{all} \"frames\": [{{\"file_path\": \"r_012.png\", {own} \"transform_matrix\": [[0, 0, -1, 1], [-1, 0, 0, -3], \
+             [0, 1, 0, 2], [0, 0, 0, 1]]}}]}}"
+        )
+    };
+    let frame = |all: &str, own: &str| read(&text(all, own)).map(|frames| frames[0]);
+    let own = frame("", "\"fl_x\": 100, \"fl_y\": 50, \"w\": 300, \"h\": 100,").expect("read");
+    assert_eq!((own.size, own.square), (Some((300, 100)), false));
+    assert!((own.camera.yfov_radians - 2.0 * 1.0f32.atan()).abs() < 1e-6);
+    // A frame's own focal length counts before an angle of all.
+    let both = frame("\"camera_angle_x\": 1.0, \"w\": 300, \"h\": 100,", "\"fl_y\": 50,").expect("read");
+    assert_eq!(both.camera, own.camera);
+    let straight = "\"camera_model\": \"OPENCV\", \"k1\": 0.0, \"camera_angle_x\": 1.0,";
+    assert!(frame(straight, "").is_ok());
+    let bent = frame("\"camera_angle_x\": 1.0, \"k1\": -0.02,", "").expect_err("bent");
+    assert!(bent.contains("frame 12: k1 is -0.02") && bent.contains("undistort"), "{bent}");
+    let fish = frame("\"camera_model\": \"OPENCV_FISHEYE\", \"camera_angle_x\": 1.0,", "").expect_err("fish");
+    assert!(fish.contains("OPENCV_FISHEYE"), "{fish}");
+    assert!(frame("", "").expect_err("none").contains("neither camera_angle_x nor fl_y"));
 }
 
 #[test]

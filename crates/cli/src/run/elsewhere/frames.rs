@@ -33,8 +33,11 @@ pub(crate) struct Mask {
     pub(crate) depth: Option<Image<f32>>,
 }
 
-/// Light without shadows below this part of its largest value: a ratio of it is noise.
+/// Light without shadows below this part of what a bright pixel has: a ratio of it is noise.
 const DARK: f32 = 1e-3;
+/// A bright pixel is brighter than this part of those with light: a lamp in the picture, or a highlight, may be
+/// any number of times brighter.
+const BRIGHT: f32 = 0.9;
 /// How far a mask may lie outside 0 to 1: rounding of half floats and of a ratio.
 const ROUNDING: f32 = 0.01;
 /// Frames of a sequence, with its holes.
@@ -133,13 +136,38 @@ impl Frames {
         Ok(())
     }
 
-    /// Numbers that files have and cameras have not.
-    pub(crate) fn spare(&self, wanted: &[u32]) -> Vec<String> {
+    /// Numbers that files have, and `what` (cameras, true frames) has not.
+    pub(crate) fn spare(&self, wanted: &[u32], what: &str) -> Vec<String> {
         let spare = |s: &NumberedFiles| -> Option<String> {
             let more: Vec<u32> = s.files.keys().copied().filter(|n| !wanted.contains(n)).collect();
-            (!more.is_empty()).then(|| format!("{}: no camera for frames {}", s.pattern, listed(&more)))
+            (!more.is_empty()).then(|| format!("{}: no {what} for frames {}", s.pattern, listed(&more)))
         };
         self.sequences().filter_map(spare).collect()
+    }
+
+    /// Frames that are the same picture as the one before: right where nothing moves, which nobody can tell
+    /// without cameras.
+    pub(crate) fn repeated(&self, reference: &NumberedFiles) -> Result<Vec<String>, CliError> {
+        let mut notes = Vec::new();
+        let takes = self.subjects.iter().flat_map(|s| &s.takes);
+        for sequence in takes.chain([reference]) {
+            let (mut last, mut same) = (None, Vec::new());
+            for &number in reference.files.keys() {
+                let picture = Some(self.mask(sequence, number)?.image);
+                if picture == last {
+                    same.push(number);
+                }
+                last = picture;
+            }
+            if !same.is_empty() {
+                notes.push(format!(
+                    "{}: frames {} repeat the one before them",
+                    sequence.pattern,
+                    listed(&same)
+                ));
+            }
+        }
+        Ok(notes)
     }
 
     /// A subject's mask in a take and frame.
@@ -188,12 +216,12 @@ impl Frames {
         check_finite(path, with)?;
         let without = lights(unshadowed)?;
         let ambient = self.ambient.as_ref().map(lights).transpose()?;
-        let most = without.pixels().iter().fold(0.0f32, |m, &v| m.max(v));
+        let dark = DARK * bright(&without);
         let (width, height) = self.size;
         let ratio = |x, y| {
             let ambient = ambient.as_ref().map_or(0.0, |a| *a.at(x, y));
             let all = without.at(x, y) - ambient;
-            if all <= DARK * most { f32::NAN } else { (with.at(x, y) - ambient) / all }
+            if all <= dark { f32::NAN } else { (with.at(x, y) - ambient) / all }
         };
         let image = Image::from_fn(width, height, ratio);
         // Noise takes single pixels over 1; pictures that were swapped take whole shadows there.
@@ -261,6 +289,13 @@ impl Frames {
     }
 }
 
+/// What is bright in a picture; 0 where nothing has light.
+fn bright(picture: &Image<f32>) -> f32 {
+    let mut lit: Vec<f32> = picture.pixels().iter().copied().filter(|&v| v > 0.0).collect();
+    lit.sort_unstable_by(f32::total_cmp);
+    lit.get((lit.len() as f32 * BRIGHT) as usize).copied().unwrap_or(0.0)
+}
+
 /// The folder's name, or the file's up to its number: "chss/shadow.####.exr" is "chss".
 fn name_of(pattern: &str) -> String {
     let path = Path::new(pattern);
@@ -276,7 +311,7 @@ fn name_of(pattern: &str) -> String {
 }
 
 /// "3, 4, 9 and 20 more".
-fn listed(numbers: &[u32]) -> String {
+pub(super) fn listed(numbers: &[u32]) -> String {
     let some: Vec<String> = numbers.iter().take(LISTED).map(u32::to_string).collect();
     match numbers.len().checked_sub(LISTED) {
         Some(more @ 1..) => format!("{} and {more} more", some.join(", ")),

@@ -10,6 +10,8 @@ pub(super) struct Guess {
     pub(super) offset: isize,
     /// Left for right, top for bottom.
     pub(super) flip: [bool; 2],
+    /// Metres in a unit of the frames' depth.
+    pub(super) depth_unit: f32,
     /// "with the cameras read as Unity's".
     pub(super) words: String,
     pub(super) cure: String,
@@ -18,12 +20,12 @@ pub(super) struct Guess {
 impl Guess {
     /// The cameras as they are.
     pub(super) fn none(cameras: &[Camera]) -> Self {
-        let (words, cure) = (String::new(), String::new());
-        Self { cameras: cameras.to_vec(), offset: 0, flip: [false; 2], words, cure }
+        Self::new(cameras.to_vec(), "", "")
     }
 
     fn new(cameras: Vec<Camera>, words: impl Into<String>, cure: impl Into<String>) -> Self {
-        Self { cameras, offset: 0, flip: [false; 2], words: words.into(), cure: cure.into() }
+        let (words, cure) = (words.into(), cure.into());
+        Self { cameras, offset: 0, flip: [false; 2], depth_unit: 1.0, words, cure }
     }
 
     /// Where in the picture a pixel of the cameras' is.
@@ -43,7 +45,22 @@ pub(super) fn guesses(given: &[Camera], aspect: f32, file: Option<(&CameraFile, 
     all.extend(of_pictures(given));
     all.extend(of_lenses(given, aspect));
     all.extend(of_places(given));
+    all.extend(of_depth(given));
     all
+}
+
+fn of_depth(given: &[Camera]) -> impl Iterator<Item = Guess> {
+    let units = [
+        ("centimetres", 0.01),
+        ("millimetres", 0.001),
+        ("kilometres", 1000.0),
+        ("feet", 0.3048),
+        ("inches", 0.0254),
+    ];
+    units.into_iter().map(|(name, depth_unit)| Guess {
+        depth_unit,
+        ..Guess::new(given.to_vec(), format!("with the frames' depth in {name}"), "write depth in metres")
+    })
 }
 
 fn of_pictures(given: &[Camera]) -> Vec<Guess> {

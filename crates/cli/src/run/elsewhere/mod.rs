@@ -5,6 +5,7 @@ mod frames;
 mod guesses;
 mod panel;
 mod projection;
+mod windows;
 mod without_cameras;
 mod words;
 
@@ -18,6 +19,7 @@ use crate::error::CliError;
 use crate::interrupt;
 use crate::progress::Progress;
 use crate::suite::{BASIS_SAMPLES, Sampling, WINDOW};
+use frames::listed;
 use guesses::guesses;
 use projection::Shown;
 use std::path::PathBuf;
@@ -55,14 +57,13 @@ pub(crate) fn score(
     settings: &ScoreSettings,
 ) -> Result<(Scorecard, Vec<String>), CliError> {
     let tracer = Tracer::new(&plan.scene)?;
-    let mut notes: Vec<String> = plan.frames.spare(&plan.numbers);
-    notes.push(match args.no_projection_check {
-        true => "whether the cameras fit the frames was not checked: --no-projection-check".into(),
+    let mut notes: Vec<String> = plan.frames.spare(&plan.numbers, "camera");
+    notes.extend(match args.no_projection_check {
+        true => vec!["whether the cameras fit the frames was not checked: --no-projection-check".into()],
         false => check_projection(plan, &tracer)?,
     });
-    if plan.numbers.windows(2).any(|pair| pair[1] != pair[0] + 1) {
-        notes.push("the frames skip numbers: swimming is over larger steps than a frame's".into());
-    }
+    let windows = windows::windows(&plan.numbers, WINDOW as usize);
+    notes.extend(windows.notes);
     if plan.frames.unshadowed.is_some() && plan.frames.bits.is_some() {
         notes.push("the error of the format's steps in a ratio depends on how bright the pictures are, and is not known; banding of \
                     dark surfaces may be the format's: write floats".into());
@@ -70,22 +71,19 @@ pub(crate) fn score(
     let mut finder = Finder::new(&tracer, settings.truth_gpu.as_ref())?;
     let cache = Cache::open(args.cache.join("truth"))?;
     let mut writer = RunWriter::create(&settings.out)?;
-    let sampling = sampling(plan, args);
-    let length = sampling.window as usize;
-    let windows = plan.numbers.len() / length;
-    let mut progress = Progress::new((windows * (1 + plan.frames.subjects.len())) as u64);
+    let sampling = sampling(plan, args, windows.length);
+    let mut progress = Progress::new((windows.places.len() * (1 + plan.frames.subjects.len())) as u64);
     let mut scored = Vec::new();
-    // From the middle, as paths of our own.
-    let start = (plan.numbers.len() - windows * length) / 2;
-    for index in 0..windows {
-        let first = start + index * length;
-        let numbers = &plan.numbers[first..first + length];
-        progress.say(format!("{}, frames {} to {}: truth", plan.path.name, numbers[0], numbers[length - 1]));
+    for (index, places) in windows.places.into_iter().enumerate() {
+        let numbers = &plan.numbers[places.clone()];
+        let last = numbers[numbers.len() - 1];
+        progress.say(format!("{}, frames {} to {last}: truth", plan.path.name, numbers[0]));
         let request = Request {
             scene: &plan.scene,
             path: &plan.path,
             first: numbers[0],
-            frames: &plan.path.frames[first..first + length],
+            step: windows.step,
+            frames: &plan.path.frames[places],
             readings: Readings::Elsewhere,
         };
         let mut window = Window::new(&request, (&mut finder, &cache, None), &sampling)?;
@@ -104,9 +102,6 @@ pub(crate) fn score(
         scored.push(Scored { window: window.facts(&plan.path), variants });
     }
     progress.finish();
-    if let (Some(last), left @ 1..) = (scored.last_mut(), plan.numbers.len() - windows * length) {
-        last.window.notes.push(format!("{left} more frames do not fill a window and are not scored"));
-    }
     let provenance = words::provenance(plan, (args, &sampling, settings), notes.clone());
     finish(writer, (provenance, words::subjects(&plan.frames)), &scored, settings).map(|card| (card, notes))
 }
@@ -154,16 +149,22 @@ pub(crate) fn score_without_cameras(
         }
         scored.push(Scored { window: without_cameras::facts(&window, frames.size), variants });
     }
-    let notes = vec![without_cameras::NOTE.to_string()];
+    let mut notes = vec![without_cameras::NOTE.to_string()];
+    notes.extend(frames.spare(&numbers, "true frame"));
+    let holes = reference.holes();
+    if !holes.is_empty() {
+        notes.push(format!("{}: frames {} are missing and not scored", reference.pattern, listed(&holes)));
+    }
+    notes.extend(frames.repeated(reference)?);
     let provenance = words::provenance_without_cameras(frames, settings, notes.clone());
     finish(writer, (provenance, words::subjects(frames)), &scored, settings).map(|card| (card, notes))
 }
 
-fn sampling(plan: &ScorePlan, args: &ScoreArgs) -> Sampling {
+fn sampling(plan: &ScorePlan, args: &ScoreArgs, window: usize) -> Sampling {
     let takes = plan.frames.subjects.iter().map(|s| s.takes.len()).max().unwrap_or(1);
     Sampling {
         size: plan.frames.size,
-        window: WINDOW.min(plan.numbers.len() as u32),
+        window: window as u32,
         seeds: takes as u32,
         first_seed: 0,
         samples: args.samples,
@@ -173,23 +174,33 @@ fn sampling(plan: &ScorePlan, args: &ScoreArgs) -> Sampling {
     }
 }
 
-/// The first, the middle and the last frame of the first subject.
-fn check_projection(plan: &ScorePlan, tracer: &Tracer) -> Result<String, CliError> {
+/// Frames of every take that are looked at: a frame too many or too few shows in those after it.
+const CHECKED: usize = 5;
+
+/// Every take's cameras, in a few frames from the first to the last.
+fn check_projection(plan: &ScorePlan, tracer: &Tracer) -> Result<Vec<String>, CliError> {
     let count = plan.numbers.len();
-    let mut places = vec![0, count / 2, count - 1];
+    let mut places: Vec<usize> = (0..CHECKED).map(|i| i * (count - 1) / (CHECKED - 1)).collect();
     places.dedup();
-    let Some(take) = plan.frames.subjects.first().and_then(|s| s.takes.first()) else {
-        return Err(CliError::Usage("nothing to score".into()));
-    };
-    let mut shown = Vec::new();
-    for place in places {
-        let mask = plan.frames.mask(take, plan.numbers[place])?;
-        shown.push(Shown { place, mask: mask.image, depth: mask.depth });
-    }
     let cameras: Vec<Camera> = plan.path.frames.iter().map(|f| f.camera).collect();
     let (width, height) = plan.frames.size;
     let file = plan.file.as_ref().map(|file| (file, plan.scene.origin));
     let all = guesses(&cameras, width as f32 / height as f32, file);
     let light = plan.path.frames[count / 2].light;
-    projection::check(tracer, (&light, plan.frames.size), &shown, (&cameras, &all))
+    let takes: Vec<_> = plan.frames.subjects.iter().flat_map(|s| &s.takes).collect();
+    let mut said: Vec<String> = Vec::new();
+    for take in &takes {
+        let mut shown = Vec::new();
+        for &place in &places {
+            let mask = plan.frames.mask(take, plan.numbers[place])?;
+            shown.push(Shown { place, mask: mask.image, depth: mask.depth });
+        }
+        let checked = projection::check(tracer, (&light, plan.frames.size), &shown, (&cameras, &all));
+        let words = checked.map_err(|refused| match refused {
+            CliError::Projection(message) => CliError::Projection(format!("{}: {message}", take.pattern)),
+            other => other,
+        })?;
+        said.push(if takes.len() > 1 { format!("{}: {words}", take.pattern) } else { words });
+    }
+    Ok(said)
 }

@@ -20,7 +20,7 @@ pub(super) struct Shown {
     pub(super) depth: Option<Image<f32>>,
 }
 
-/// Points of a frame that are compared: a tenth of a percent of them is several.
+/// Most of the points of a frame that are compared: a tenth of a percent of them is several.
 const POINTS: u32 = 6000;
 /// Depths differ by so much of themselves: half floats round by 5e-4 of them. A field of view wrong by 1 % moves
 /// a pixel at a picture's edge by 1 % of half its width, and the depth of a floor there by about as much.
@@ -93,7 +93,8 @@ fn check_cameras(asked: &Asked<'_>, own: &Guess, guesses: &[Guess]) -> Result<St
     }
     // Each against no mistake in the same frames: one that shifts frames has none for the last.
     let tried = guesses.iter().filter_map(|g| {
-        let (found, none) = (asked.unexplained(g, g.offset)?, asked.unexplained(own, g.offset)?);
+        let none = if g.offset == 0 { as_given } else { asked.unexplained(own, g.offset)? };
+        let found = asked.unexplained(g, g.offset)?;
         (found.part < BETTER * none.part && none.part > fine).then_some((g, found))
     });
     let best = tried.min_by(|a, b| a.1.part.total_cmp(&b.1.part));
@@ -104,6 +105,13 @@ fn check_cameras(asked: &Asked<'_>, own: &Guess, guesses: &[Guess]) -> Result<St
     {
         let message = format!("{}; {}, only {:.2} %", said(as_given), guess.words, 100.0 * found.part);
         return Err(CliError::Projection(format!("{message}\n  help: {}", guess.cure)));
+    }
+    if as_given.part > limit && as_given.by_depth && asked.holds_buffer_depth() {
+        return Err(CliError::Projection(format!(
+            "{}; all depths lie between 0 and 1\n  help: a depth buffer's values are no metres: write linear depth, or leave \
+             the channel out",
+            said(as_given)
+        )));
     }
     if as_given.part > limit {
         return Err(CliError::Projection(format!(
@@ -150,10 +158,16 @@ impl Asked<'_> {
         high - low > VARIES
     }
 
+    /// Whether depths may be what a projection makes of them.
+    fn holds_buffer_depth(&self) -> bool {
+        let depths = self.shown.iter().filter_map(|s| s.depth.as_ref());
+        depths.flat_map(|d| d.pixels()).all(|v| (0.0..=1.0).contains(v))
+    }
+
     /// None where the frames are the same everywhere.
     fn unexplained(&self, guess: &Guess, offset: isize) -> Option<Unexplained> {
         let (width, height) = self.size;
-        let step = ((f64::from(width) * f64::from(height) / f64::from(POINTS)).sqrt() as u32).max(1);
+        let step = ((f64::from(width) * f64::from(height) / f64::from(POINTS)).sqrt().ceil() as u32).max(1);
         let grid: Vec<u32> = (step / 2..height)
             .step_by(step as usize)
             .flat_map(|y| (step / 2..width).step_by(step as usize).map(move |x| y * width + x))
@@ -172,7 +186,7 @@ impl Asked<'_> {
             let (depths, points) = self.tracer.primary_some(&view, &grid);
             if let Some(depth) = shown.depth.as_ref().filter(|_| by_depth) {
                 for (&pixel, &truth) in grid.iter().zip(&depths) {
-                    let here = depth.pixels()[seen(pixel) as usize];
+                    let here = depth.pixels()[seen(pixel) as usize] * guess.depth_unit;
                     differ += usize::from(!same_depth(here, truth, &view, pixel));
                     all += 1;
                 }

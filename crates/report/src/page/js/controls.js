@@ -71,8 +71,8 @@ function showState() {
   find(".no-time").textContent = w.frames < 2 ? "One frame only: nothing to play." : "Frames of this size are not kept: nothing to play.";
   find(".frame").max = w.frames - 1;
   find(".frame").value = state.frame ?? middle();
-  find(".frame").setAttribute("aria-valuetext", "frame " + (w.first + (state.frame ?? middle())));
-  find(".frame-name").textContent = state.frame === null ? `frame ${w.first + middle()}, as shown` : `frame ${w.first + state.frame}`;
+  find(".frame").setAttribute("aria-valuetext", "frame " + (w.first + (state.frame ?? middle()) * w.step));
+  find(".frame-name").textContent = state.frame === null ? `frame ${w.first + middle() * w.step}, as shown` : `frame ${w.first + state.frame * w.step}`;
   find("[data-do=play]").textContent = playing() ? "Pause" : "Play";
   find("[data-do=follow]").setAttribute("aria-pressed", String(state.pin !== null));
   find("[data-do=tiles]").setAttribute("aria-pressed", String(state.tiles));

@@ -58,7 +58,7 @@ function axes(svg, low, high, atX, atY) {
   }
   const every = Math.ceil(current().frames / 16);
   for (let t = 0; t < current().frames; t += every) {
-    element(svg, "text", { class: "tick", x: atX(t), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, current().first + t);
+    element(svg, "text", { class: "tick", x: atX(t), y: HEIGHT - BOTTOM + 16, "text-anchor": "middle" }, current().first + t * current().step);
   }
   element(svg, "text", { class: "axis", x: 0, y: 10 }, "visibility of this point");
   element(svg, "text", { class: "axis", x: WIDTH - RIGHT, y: HEIGHT - 2, "text-anchor": "end" }, "frame");

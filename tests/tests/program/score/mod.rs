@@ -1,5 +1,8 @@
 //! Frames of another engine: scored, and refused where cameras or files are wrong.
 
+mod cameras;
+mod files;
+
 use std::path::{Path, PathBuf};
 use umbrage_frame::{Image, Layer, read_exr, write_exr};
 use umbrage_scene::{Camera, Scene};
@@ -129,86 +132,6 @@ fn noisy(image: &Image<f32>, seed: u32) -> Image<f32> {
     image.map(|v| (v + 0.2 * next() - 0.1).clamp(0.0, 1.0))
 }
 
-fn numbers(m: glam::Mat4) -> [f64; 16] {
-    m.to_cols_array().map(f64::from)
-}
-
-/// Each of the usual mistakes is refused, by depth and by the shadow alone, and called by its name.
-#[test]
-fn wrong_cameras_are_refused_by_name() {
-    use glam::{Mat4, Vec3};
-    let handed = Handed::new();
-    for way in WAYS {
-        handed.score(&format!("--cameras cameras.json {way}")).ended_with(0);
-        let refused = |cameras: &str, words: &str| {
-            let ran = handed.score(&format!("--cameras {cameras} {way}")).ended_with(3);
-            assert!(
-                ran.stderr.contains(words) && ran.stderr.contains("help:"),
-                "{cameras}, {way}: {}",
-                ran.stderr
-            );
-        };
-        // Unity's numbers: x negated in the world, z in the camera.
-        let unity = |c: &Camera| {
-            let (world, camera) = (Vec3::new(-1.0, 1.0, 1.0), Vec3::new(1.0, 1.0, -1.0));
-            numbers(Mat4::from_scale(world) * c.world_from_camera * Mat4::from_scale(camera))
-        };
-        handed.write_cameras("unity.json", "{}", unity);
-        refused("unity.json", "read as unity writes them");
-        handed.score(&format!("--cameras unity.json --convention unity {way}")).ended_with(0);
-        handed.write_cameras("cm.json", "{}", |c| {
-            let mut m = c.world_from_camera;
-            m.w_axis = (m.w_axis.truncate() * 100.0).extend(1.0);
-            numbers(m)
-        });
-        refused("cm.json", "centimetres");
-        let wide = std::fs::read_to_string(handed.folder().join("cameras.json")).expect("text");
-        let yfov = handed.cameras[0].yfov_radians;
-        let wrong = format!("\"yfov\": {}", 2.0 * ((0.5 * yfov).tan() * 1.05).atan());
-        std::fs::write(handed.folder().join("wide.json"), wide.replace(&format!("\"yfov\": {yfov}"), &wrong))
-            .expect("written");
-        refused("wide.json", "vertical field of view of");
-        handed.write_cameras("view.json", "{}", |c| numbers(c.world_from_camera.inverse()));
-        refused("view.json", "world to camera");
-        // Each camera is the one before.
-        let later: String = (0..COUNT).rev().fold(wide.clone(), |text, i| {
-            text.replace(&format!("\"index\": {i},"), &format!("\"index\": {},", i + 1))
-        });
-        let later = later.replace(&format!("\"index\": {COUNT},"), "\"index\": 0,");
-        std::fs::write(handed.folder().join("later.json"), later).expect("written");
-        refused("later.json", "off by one");
-    }
-    // A light that is not the frames', where depth says that the cameras are right.
-    let scene = Scene::builtin("colonnade").expect("a standard scene");
-    let umbrage_scene::AreaLight::Sun { direction_to_light: sun, .. } = scene.lights[0] else {
-        panic!("the colonnade stands in the sun")
-    };
-    let turned = [-sun.x, sun.y, -sun.z];
-    let text = format!("kind = \"sun\"\nangular_diameter_degrees = 1.0\ndirection_to_light = {turned:?}");
-    std::fs::write(handed.folder().join("sun.toml"), text).expect("written");
-    let ran = handed.score(&format!("--cameras cameras.json --light sun.toml {}", WAYS[0])).ended_with(3);
-    assert!(ran.stderr.contains("not this light's") && ran.stderr.contains("--light"), "{}", ran.stderr);
-    // One frame that is broken is what a score is for; it is no shift of all.
-    handed.rewrite("broken", |n, i| if n + 1 == COUNT { noisy(&i.map(|_| 0.5), 5) } else { i.clone() });
-    handed.score("--cameras cameras.json --frames broken.####.exr").ended_with(0);
-    handed.rewrite("inverse", |_, i| i.map(|v| 1.0 - v));
-    let ran = handed.score("--cameras cameras.json --frames inverse.####.exr").ended_with(3);
-    assert!(ran.stderr.contains("1 is fully lit"), "{}", ran.stderr);
-    // Pictures: upside down, and mirrored.
-    handed.rewrite("down", |_, i| Image::from_fn(i.width(), i.height(), |x, y| *i.at(x, i.height() - 1 - y)));
-    let ran = handed.score("--cameras cameras.json --frames down.####.exr").ended_with(3);
-    assert!(ran.stderr.contains("upside down"), "{}", ran.stderr);
-    handed
-        .rewrite("mirror", |_, i| Image::from_fn(i.width(), i.height(), |x, y| *i.at(i.width() - 1 - x, y)));
-    let ran = handed.score("--cameras cameras.json --frames mirror.####.exr").ended_with(3);
-    assert!(ran.stderr.contains("left and right"), "{}", ran.stderr);
-    // Something else entirely, and the way round it.
-    handed.rewrite("other", |n, i| noisy(&Image::filled(i.width(), i.height(), 0.5), n as u32 + 1));
-    let ran = handed.score("--cameras cameras.json --frames other.####.exr").ended_with(3);
-    assert!(ran.stderr.contains("no usual mistake explains it"), "{}", ran.stderr);
-    handed.score("--cameras cameras.json --frames other.####.exr --no-projection-check").ended_with(0);
-}
-
 /// Pictures with the shadow in them, against pictures without.
 #[test]
 fn a_ratio_of_pictures_is_a_shadow() {
@@ -238,6 +161,18 @@ fn a_ratio_of_pictures_is_a_shadow() {
     assert!(card.results()[0].2["error"]["value"].as_f64().expect("ERROR") < 0.01, "{}", ran.stderr);
     let notes = card.windows()[0]["notes"].to_string();
     assert!(notes.contains("without shadows they have no light"), "{notes}");
+    // A lamp in the picture does not make the rest dark.
+    let errors = card.results()[0].2["error"]["value"].clone();
+    for number in 0..COUNT {
+        for stem in ["lit", "bright", "dim"] {
+            let file = handed.folder().join(format!("{stem}.{number:04}.exr"));
+            let mut layers = read_exr(&file).expect("read");
+            layers.iter_mut().for_each(|l| l.1.pixels_mut()[0] = 5000.0);
+            write_exr(&file, &layers).expect("written");
+        }
+    }
+    handed.score(line).ended_with(0);
+    assert_eq!(Card::load(&handed.folder().join("run")).results()[0].2["error"]["value"], errors);
     let swapped =
         line.replace("lit.####", "x").replace("bright.####", "lit.####").replace("x.exr", "bright.####.exr");
     handed.score(&swapped).ended_with(4).says("the other way round");
@@ -273,74 +208,4 @@ fn pngs_need_their_curve_and_show_their_floor() {
     assert!(card.results()[0].2["error"]["value"].as_f64().expect("ERROR") < 0.012);
     let notes = card.windows()[0]["notes"].to_string();
     assert!(notes.contains("8 bits make an error of"), "{notes}");
-}
-
-#[test]
-fn frames_without_cameras_are_scored_one_by_one() {
-    let handed = Handed::new();
-    handed.rewrite("mine", |n, image| noisy(image, n as u32 + 3));
-    let line = "score --frames mine.####.exr --reference-frames shadow.####.exr --out run";
-    let ran = run(&mut umbrage(handed.folder(), line)).ended_with(0);
-    assert!(ran.stderr.contains("per-frame scores only"), "{}", ran.stderr);
-    let card = Card::load(&handed.folder().join("run"));
-    assert_eq!(card.windows().len(), COUNT);
-    for (_, _, scores) in card.results() {
-        let error = scores["error"]["value"].as_f64().expect("ERROR");
-        // +-.1 uniform: .058; clamping takes some off.
-        assert!((0.04..0.06).contains(&error), "{error}");
-        assert!(scores["swimming"]["not_measured"].is_string(), "{}", scores["swimming"]);
-    }
-}
-
-#[test]
-fn bad_frames_are_named() {
-    let handed = Handed::new();
-    let folder = handed.folder();
-    let shadow = |number: usize| folder.join(format!("shadow.{number:04}.exr"));
-    let original: Vec<Vec<u8>> = (0..COUNT).map(|n| std::fs::read(shadow(n)).expect("read")).collect();
-    let broken = |number: usize, bytes: &[u8], code: i32, words: &[&str]| {
-        std::fs::write(shadow(number), bytes).expect("written");
-        let mut ran = handed.score(&format!("--cameras cameras.json {}", WAYS[1])).ended_with(code);
-        for word in words {
-            ran = ran.says(word);
-        }
-        std::fs::write(shadow(number), &original[number]).expect("written");
-    };
-    let written = |layers: &[Layer]| {
-        let file = folder.join("made.exr");
-        write_exr(&file, layers).expect("written");
-        std::fs::read(&file).expect("read")
-    };
-    let plane = |width, height, value: f32| ("shadow.V".to_string(), Image::filled(width, height, value));
-    broken(3, &original[3][..original[3].len() / 2], 4, &["shadow.0003.exr"]);
-    broken(2, &written(&[plane(80, 45, 0.5)]), 4, &["shadow.0002.exr: has 80x45 pixels", "160x90"]);
-    let mut holes = Image::filled(160, 90, 0.5);
-    holes.pixels_mut()[161] = f32::NAN;
-    holes.pixels_mut()[500] = f32::INFINITY;
-    broken(
-        2,
-        &written(&[("shadow.V".into(), holes)]),
-        4,
-        &["2 pixels are NaN or infinite, the first at (1, 1)"],
-    );
-    let odd = [
-        ("left.A".to_string(), Image::filled(160, 90, 0.5)),
-        ("right.A".into(), Image::filled(160, 90, 0.5)),
-    ];
-    broken(0, &written(&odd), 4, &["left.A, right.A", "--channel"]);
-    broken(2, &original[1], 4, &["frames 1 and 2 are the same picture", "px between them"]);
-    // A header that promises a gigapixel is refused before memory is asked for.
-    let mut huge = original[0].clone();
-    let at = huge.windows(10).position(|w| w == b"dataWindow").expect("a header")
-        + b"dataWindow\0box2i\0".len()
-        + 4;
-    huge[at + 8..at + 16].copy_from_slice(&[0xff, 0xff, 0, 0, 0xff, 0xff, 0, 0]);
-    broken(0, &huge, 4, &["shadow.0000.exr"]);
-    for number in [1, 3] {
-        std::fs::remove_file(shadow(number)).expect("removed");
-    }
-    let ran = handed.score(&format!("--cameras cameras.json {}", WAYS[1])).ended_with(4);
-    assert!(ran.stderr.contains("2 of 5 frames are missing: 1, 3"), "{}", ran.stderr);
-    handed.score("--cameras cameras.json --frames nothing.####.exr").ended_with(4).says("no file fits");
-    handed.score("--cameras nothing.json --frames shadow.####.exr").ended_with(4).says("nothing.json");
 }
