@@ -18,6 +18,7 @@ const USAGE: &str = "cargo xtask COMMAND
                    and the gate against the committed baseline of the standard suite
   layers           check the dependency invariants of ARCHITECTURE.md
   figures          render the pictures of README and docs/techniques.md again
+  screenshots [RUN] take the README's pictures of a report's page again: of the standard suite, or of a stored run
   bless            renew committed goldens (the scorecard's schema and shape)";
 
 fn main() -> ExitCode {
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         Some("ci") => steps::ci(),
         Some("layers") => layers::check(),
         Some("figures") => steps::figures(),
+        Some("screenshots") => steps::screenshots(&arguments[1..]),
         Some("bless") => steps::bless(),
         _ => Err(format!("usage: {USAGE}")),
     };

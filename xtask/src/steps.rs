@@ -73,6 +73,20 @@ pub(crate) fn figures() -> Outcome {
     pictures("point-light-room", &rooms)
 }
 
+/// Takes the README's pictures of the page again: of the standard suite, or of a stored run.
+pub(crate) fn screenshots(arguments: &[String]) -> Outcome {
+    browser::ensure()?;
+    let own = "reports/out/screenshots".to_string();
+    let run_folder = arguments.first().unwrap_or(&own);
+    if arguments.is_empty() {
+        evaluate(&["--reference-on", "cpu", "--out", &own].map(str::to_string))?;
+    }
+    // The packages of the workspace's own build, so that nothing is compiled twice.
+    run(&cargo(), &["build", "--workspace", "--example", "screenshots"])?;
+    let example = adapter::program("debug")?.with_file_name("examples").join("screenshots");
+    run_in(Command::new(example).args([run_folder, "reports/figures"]))
+}
+
 /// Names of all variants, each with its line of the list.
 fn listed_variants() -> Result<Vec<(String, String)>, String> {
     let output = Command::new(adapter::program("release")?)

@@ -52,6 +52,7 @@ impl CliError {
             Self::Usage(_)
             | Self::Reference(ReferenceError::Device(DeviceError::UnknownBackend { .. }))
             | Self::Scene(SceneError::UnknownName { .. })
+            | Self::Report(ReportError::Request { .. })
             | Self::Shadow(
                 ShadowError::Device(DeviceError::UnknownBackend { .. })
                 | ShadowError::WrongLight { .. }

@@ -24,6 +24,14 @@ pub enum ReportError {
         /// What is wrong with it, and what to do.
         reason: String,
     },
+    /// Something was asked of a run that it does not have.
+    #[error("{}: {reason}", path.display())]
+    Request {
+        /// The run's scorecard.
+        path: PathBuf,
+        /// What it does not have, and what it has.
+        reason: String,
+    },
     /// The file is not a baseline, not one of this version, or edited by hand.
     #[error("{}: {reason}", path.display())]
     Baseline {

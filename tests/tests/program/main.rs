@@ -6,6 +6,7 @@ mod bad_scenes;
 mod claims;
 mod commands;
 mod dump;
+mod figure;
 mod gate;
 mod models;
 mod outputs;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 #[derive(Args, Debug)]
 pub(crate) struct FigureArgs {
-    /// Folder of a run.
+    /// Folder of a run: of `evaluate`, with or without techniques of your own, or of `score`.
     pub(crate) run: PathBuf,
     /// Scene of the window; the first one otherwise.
     #[arg(long, value_name = "NAME")]
@@ -13,10 +13,11 @@ pub(crate) struct FigureArgs {
     /// Camera path of the window.
     #[arg(long, value_name = "NAME")]
     pub(crate) path: Option<String>,
-    /// Variant, in this order (several by repeating); the light-matched ones otherwise.
+    /// Variant, in this order (several by repeating): `chss`, `mine`, `chss/as-printed`; all but those as printed
+    /// otherwise.
     #[arg(long = "variant", value_name = "NAME")]
     pub(crate) variants: Vec<String>,
-    /// Inset in pixels of the picture (several by repeating); the worst place of the first variant otherwise.
+    /// Inset inside the picture, in its pixels (several by repeating); the worst place of the first variant otherwise.
     #[arg(long = "crop", value_name = "X,Y,W,H", value_parser = parse_crop)]
     pub(crate) crops: Vec<[u32; 4]>,
     /// How many times pictures are magnified.

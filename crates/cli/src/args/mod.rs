@@ -48,6 +48,9 @@ pub(crate) enum Command {
     /// Pages from a stored run.
     Report(ReportArgs),
     /// Crops, plots, tables and animations for a paper, from a stored run.
+    ///
+    /// Writes crops.png with insets (their values in crop-N.exr), plots as SVG and PDF, scores.tex and scores.csv, the
+    /// path as APNG and, where ffmpeg is on the PATH, as MP4, and captions.txt, which says what is where.
     Figure(FigureArgs),
     /// What there is.
     List(ListArgs),

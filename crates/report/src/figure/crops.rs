@@ -3,7 +3,7 @@
 use super::Chosen;
 use crate::ReportError;
 use crate::picture::{png_of_rgb, shade};
-use crate::store::{read_variant, read_window};
+use crate::store::{read_variant, scorecard_path};
 use std::path::{Path, PathBuf};
 use umbrage_frame::{Image, Layer, write_exr};
 
@@ -11,27 +11,43 @@ use umbrage_frame::{Image, Layer, write_exr};
 const GAP: u32 = 8;
 /// Around an inset and its place; told apart by colour-blind readers.
 const FRAMES: [[u8; 3]; 4] = [[230, 97, 1], [94, 60, 153], [0, 114, 178], [0, 158, 115]];
+/// Pixels of a figure: 0.8 GB of colours.
+const LARGEST: u64 = 1 << 28;
 const PAPER: [u8; 3] = [255; 3];
 
 /// A picture, its name, and the same as a name of a layer.
-pub(super) struct Panel {
-    pub(super) name: String,
+struct Panel {
+    name: String,
     layer: String,
-    pub(super) plane: Image<f32>,
+    plane: Image<f32>,
 }
 
 /// Truth first, then each variant.
-pub(super) fn panels(chosen: &Chosen) -> Result<Vec<Panel>, ReportError> {
-    let truth = read_window(chosen.run, chosen.window)?.truth;
+fn panels(chosen: &Chosen) -> Result<Vec<Panel>, ReportError> {
+    let truth = chosen.pictures.truth.clone();
     let mut all = vec![Panel { name: "truth".into(), layer: "reference.V".into(), plane: truth }];
     for &v in &chosen.variants {
         let of = &chosen.card.variants[v];
-        let name = format!("{} ({})", of.name, of.calibration.label());
-        let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
-        let layer = format!("{}-{}.V", of.name.chars().map(safe).collect::<String>(), of.calibration.id());
+        let name = one_line(&format!("{} ({})", of.name, of.calibration.label()));
+        let stem =
+            format!("{}-{}", of.name.chars().map(layer_letter).collect::<String>(), of.calibration.id());
+        // Names that differ in other letters only, or a variant asked for twice.
+        let taken = |layer: &String| all.iter().any(|panel: &Panel| panel.layer == *layer);
+        let numbered = std::iter::once(format!("{stem}.V")).chain((2..).map(|n| format!("{stem}-{n}.V")));
+        let layer = numbered.into_iter().find(|layer| !taken(layer)).unwrap_or_default();
         all.push(Panel { name, layer, plane: read_variant(chosen.run, chosen.window, v)?.mask });
     }
     Ok(all)
+}
+
+/// Dots part layers.
+fn layer_letter(c: char) -> char {
+    if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' }
+}
+
+/// A name in a sentence: no line breaks, nothing that a terminal obeys.
+pub(super) fn one_line(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// Writes `crops.png` and `crop-N.exr`; returns what they show, and the files of values.
@@ -40,9 +56,8 @@ pub(super) fn write(
     (out, put): (&Path, &mut impl FnMut(&str, &[u8]) -> Result<(), ReportError>),
 ) -> Result<(String, Vec<PathBuf>), ReportError> {
     let panels = panels(chosen)?;
-    let size = (panels[0].plane.width(), panels[0].plane.height());
-    let crops: Vec<[u32; 4]> = chosen.crops.iter().filter_map(|&crop| inside(crop, size)).collect();
-    put("crops.png", &png_of_rgb("crops", &sheet(&panels, &crops, chosen.times))?)?;
+    let crops = &chosen.crops;
+    put("crops.png", &png_of_rgb("crops", &sheet(chosen, &panels)?)?)?;
     let mut values = Vec::new();
     for (index, &crop) in crops.iter().enumerate() {
         let layers: Vec<Layer> = panels.iter().map(|p| (p.layer.clone(), cut(&p.plane, crop))).collect();
@@ -53,34 +68,48 @@ pub(super) fn write(
     let names: Vec<&str> = panels.iter().map(|p| p.name.as_str()).collect();
     let w = &chosen.card.windows[chosen.window];
     let places: Vec<String> = crops.iter().map(|[x, y, w, h]| format!("{x},{y} of {w}x{h}")).collect();
+    let insets = match places.as_slice() {
+        [] => String::new(),
+        places => format!(" Insets at pixels {}; their values in crop-N.exr.", places.join("; ")),
+    };
     let caption = format!(
-        "crops.png: {}, {}, middle frame. Left to right: {}. Insets at pixels {}; their values in crop-N.exr.\n",
-        w.scene,
-        w.path,
+        "crops.png: {}, {}, middle frame. Left to right: {}.{insets}\n",
+        one_line(&w.scene),
+        one_line(&w.path),
         names.join("; "),
-        places.join("; ")
     );
     Ok((caption, values))
-}
-
-/// The part of a rectangle that is inside a picture.
-fn inside([left, top, width, height]: [u32; 4], (columns, rows): (u32, u32)) -> Option<[u32; 4]> {
-    let (right, bottom) = (left.saturating_add(width).min(columns), top.saturating_add(height).min(rows));
-    (left < right && top < bottom).then(|| [left, top, right - left, bottom - top])
 }
 
 pub(super) fn cut(plane: &Image<f32>, [left, top, width, height]: [u32; 4]) -> Image<f32> {
     Image::from_fn(width, height, |x, y| *plane.at(left + x, top + y))
 }
 
-fn sheet(panels: &[Panel], crops: &[[u32; 4]], times: u32) -> Image<[u8; 3]> {
+/// Refuses a picture that would fill the memory of a machine.
+pub(super) fn check_size(chosen: &Chosen, (columns, rows): (u32, u32)) -> Result<(), ReportError> {
+    if u64::from(columns) * u64::from(rows) <= LARGEST {
+        return Ok(());
+    }
+    let reason = format!(
+        "a figure of {columns}x{rows} pixels is too large: fewer variants, a smaller --times, or insets that are less tall"
+    );
+    Err(ReportError::Request { path: scorecard_path(chosen.run), reason })
+}
+
+fn sheet(chosen: &Chosen, panels: &[Panel]) -> Result<Image<[u8; 3]>, ReportError> {
+    let (crops, times) = (&chosen.crops, chosen.times);
     let (width, height) = (panels[0].plane.width() * times, panels[0].plane.height() * times);
     // Insets share a panel's width.
     let count = crops.len().max(1) as u32;
     let inset = width.saturating_sub((count - 1) * GAP) / count;
+    if inset == 0 {
+        let reason = format!("{count} insets do not fit under a picture of {width} pixels");
+        return Err(ReportError::Request { path: scorecard_path(chosen.run), reason });
+    }
     let tall = crops.iter().map(|c| inset * c[3] / c[2]).max().unwrap_or(0);
     let rows = if tall > 0 { height + GAP + tall } else { height };
     let columns = panels.len() as u32 * (width + GAP) - GAP;
+    check_size(chosen, (columns, rows))?;
     let mut sheet = Image::filled(columns, rows, PAPER);
     for (index, panel) in panels.iter().enumerate() {
         let left = index as u32 * (width + GAP);
@@ -98,7 +127,7 @@ fn sheet(panels: &[Panel], crops: &[[u32; 4]], times: u32) -> Image<[u8; 3]> {
             frame(&mut sheet, place, colour);
         }
     }
-    sheet
+    Ok(sheet)
 }
 
 /// Draws a part of a plane into a rectangle, by nearest pixels.

@@ -1,27 +1,35 @@
-//! The page's plots as files of their own: colours of the light page, names beside them.
+//! The page's plots as files of their own, SVG and PDF: colours of the light page, names beside them.
 
 use super::Chosen;
+use super::paint::style_sheet;
+use super::pdf::pdf_of_plot;
+use crate::ReportError;
 use crate::plot::{Look, pareto, per_frame};
+use crate::tables::legal_xml;
 use crate::words::full_name;
-use maud::html;
+use maud::{Markup, html};
 
-/// As in the page's style sheet, for paper.
-const STYLE: &str = "text{font:12px Helvetica,Arial,sans-serif;fill:#1c1d21}.tick,.axis{fill:#656871}.grid{stroke:#dedcd6}\
-.line{fill:none;stroke:var(--c);stroke-width:1.8}.line.printed{stroke-dasharray:4 3}.mark{fill:var(--c);stroke:var(--c)}\
-.mark.printed{fill:#fff}.band{fill:var(--c);fill-opacity:.13}.whisker{stroke:var(--c)}.frontier{fill:none;stroke:#656871;stroke-dasharray:2 3}\
-.label{paint-order:stroke;stroke:#fff;stroke-width:4px}";
-/// `--c0` to `--c7`.
-const COLOURS: [&str; 8] =
-    ["#1d4f91", "#c8501e", "#138468", "#b5548f", "#a57c00", "#3b98cf", "#6a6d75", "#7a3fb0"];
 const LINE: f64 = 18.0;
 
-/// Name and text of each plot that there is data for.
-pub(super) fn all(chosen: &Chosen) -> Vec<(String, String)> {
-    let plots = [("cost.svg", pareto(chosen.card)), ("swimming.svg", per_frame(chosen.card, chosen.window))];
-    let alone = |(name, plot): (&str, Option<maud::Markup>)| {
-        Some((name.to_string(), alone(chosen, &plot?.into_string())?))
-    };
-    plots.into_iter().filter_map(alone).collect()
+/// Writes each plot that there is data for.
+pub(super) fn write(
+    chosen: &Chosen,
+    put: &mut impl FnMut(&str, &[u8]) -> Result<(), ReportError>,
+) -> Result<(), ReportError> {
+    let window = &chosen.card.windows[chosen.window];
+    let swimming = format!("SWIMMING per frame: {}, {}", window.scene, window.path);
+    let plots = [
+        ("cost", "Error against cost".to_string(), pareto(chosen.card)),
+        ("swimming", swimming, per_frame(chosen.card, chosen.window)),
+    ];
+    for (name, title, plot) in plots {
+        // A plot where nothing moves is a sentence without a drawing.
+        let Some(svg) = plot.and_then(|plot: Markup| alone(chosen, &plot.into_string())) else { continue };
+        put(&format!("{name}.svg"), svg.as_bytes())?;
+        let broken = |reason| ReportError::Picture { name: format!("{name}.pdf"), reason };
+        put(&format!("{name}.pdf"), &pdf_of_plot(&svg, &title).map_err(broken)?)?;
+    }
+    Ok(())
 }
 
 /// The drawing of a plot as a file of its own, with the names of the variants under it.
@@ -44,17 +52,10 @@ fn alone(chosen: &Chosen, markup: &str) -> Option<String> {
         }
     }
     .into_string();
-    // Not every reader of SVG knows variables: colours are written out.
-    let colours: String = COLOURS
-        .iter()
-        .enumerate()
-        .map(|(i, c)| STYLE_OF.replace("@i", &i.to_string()).replace("@c", c))
-        .collect();
-    Some(format!(
+    let style = style_sheet();
+    // A browser forgives a page what an XML file must not have.
+    Some(legal_xml(&format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {tall}\" width=\"{width}\" height=\"{tall}\">\
-         <style>{STYLE}{colours}</style>{content}{legend}</svg>\n"
-    ))
+         <style>{style}</style>{content}{legend}</svg>\n"
+    )))
 }
-
-/// What `var(--c)` does, colour by colour.
-const STYLE_OF: &str = ".c@i{--c:@c}.line.c@i,.whisker.c@i{stroke:@c}.mark.c@i{stroke:@c}.mark.matched.c@i{fill:@c}.band.c@i{fill:@c}";

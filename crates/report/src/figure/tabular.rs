@@ -1,6 +1,7 @@
 //! The table of scores for a paper: LaTeX with booktabs, and the same as CSV.
 
 use super::Chosen;
+use super::tex::escaped;
 use crate::numbers::{Power, with_interval};
 use crate::{Calibration, VariantCard};
 use std::fmt::Write as _;
@@ -26,7 +27,9 @@ fn score(chosen: &Chosen, v: usize, id: &str) -> Option<Score> {
 pub(super) fn latex(chosen: &Chosen) -> String {
     let power =
         |id: &str| Power::of(chosen.variants.iter().filter_map(|&v| score(chosen, v, id)).map(|s| s.value));
-    let mut text = String::from("% needs \\usepackage{booktabs}\n\\begin{tabular}{l");
+    let mut text = String::from(
+        "% needs \\usepackage{booktabs}; a ? stands for a letter that LaTeX may not have: scores.csv has it\n\\begin{tabular}{l",
+    );
     text += &"r".repeat(COLUMNS.len());
     text += "}\n\\toprule\nvariant";
     for (id, name) in COLUMNS {
@@ -70,28 +73,4 @@ pub(super) fn csv(chosen: &Chosen) -> String {
 
 fn name(v: &VariantCard) -> String {
     if v.calibration == Calibration::AsPrinted { format!("{} (as printed)", v.name) } else { v.name.clone() }
-}
-
-/// What LaTeX would take for a command, and the signs that are not ASCII.
-fn escaped(text: &str) -> String {
-    let letter = |c: char| match c {
-        '\\' => "\\textbackslash{}".into(),
-        '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),
-        '~' => "\\textasciitilde{}".into(),
-        '^' => "\\textasciicircum{}".into(),
-        '±' => "$\\pm$".into(),
-        '−' => "$-$".into(),
-        c => c.to_string(),
-    };
-    text.chars().map(letter).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::escaped;
-
-    #[test]
-    fn names_are_no_commands() {
-        assert_eq!(escaped("a_b\\input{x} 1.2 ± 0.1"), "a\\_b\\textbackslash{}input\\{x\\} 1.2 $\\pm$ 0.1");
-    }
 }

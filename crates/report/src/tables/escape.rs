@@ -9,11 +9,19 @@ pub(crate) fn csv(field: &str) -> String {
     }
 }
 
+fn is_xml(c: &char) -> bool {
+    !matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
+}
+
+/// Markup without the characters that XML cannot hold at all.
+pub(crate) fn legal_xml(markup: &str) -> String {
+    markup.chars().filter(is_xml).collect()
+}
+
 /// Text or an attribute of XML 1.0; characters that XML cannot hold at all are dropped.
 pub(super) fn xml(text: &str) -> String {
-    let legal = |c: &char| !matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}');
     let mut escaped = String::with_capacity(text.len());
-    for c in text.chars().filter(legal) {
+    for c in text.chars().filter(is_xml) {
         match c {
             '&' => escaped += "&amp;",
             '<' => escaped += "&lt;",

@@ -5,6 +5,7 @@ mod browser;
 #[path = "../fixture/mod.rs"]
 mod fixture;
 mod layers;
+mod print;
 
 use browser::Browser;
 use fixture::{Device, scorecard};
