@@ -54,7 +54,17 @@ fn superscript(exponent: i32) -> String {
 
 /// Half the width of the interval.
 pub(crate) fn half_width(score: Score) -> f64 {
+    if is_unknown(score) {
+        return 0.0;
+    }
     0.5 * (score.high - score.low).abs()
+}
+
+/// With fewer than two clusters of tiles nothing is known about the spread: the metrics crate says so by the
+/// value and 1 on either side (`Bootstrap`).
+fn is_unknown(score: Score) -> bool {
+    let is_one = |side: f64| (side - 1.0).abs() < 1e-9;
+    is_one(score.value - score.low) && is_one(score.high - score.value)
 }
 
 /// Three significant digits: "0.0123", "1.84", "335", "−2.10"; zero is "0".
@@ -76,6 +86,9 @@ pub(crate) fn free_number(value: f64) -> String {
 /// (no width) is the number alone.
 pub(crate) fn with_interval(score: Score, goal: f64, power: Power) -> (String, Option<String>) {
     let (value, half) = (power.scaled(score.value), power.scaled(half_width(score)));
+    if is_unknown(score) {
+        return (number(value), Some("± unknown".into()));
+    }
     if half == 0.0 || half.abs() < 1e-9 * value.abs() {
         return (number(value), None);
     }
@@ -175,6 +188,12 @@ mod tests {
 
     fn score(value: f64, half: f64) -> Score {
         Score { value, low: value - half, high: value + half }
+    }
+
+    #[test]
+    fn an_interval_that_is_not_known_is_no_number() {
+        assert_eq!(free_score(score(0.0134, 1.0)), "0.0134 ± unknown");
+        assert_eq!(free_score(score(9.1e-5, 1.0)), "(91.0 ± unknown)×10⁻⁶");
     }
 
     #[test]

@@ -61,7 +61,7 @@ pub(super) fn measure(
     let mut panel =
         Panel { points, frames: count, seeds, values: Vec::with_capacity(points * count * seeds) };
     let mut shown = None;
-    let mut before: Vec<Vec<Option<blake3::Hash>>> = Vec::new();
+    let mut before: Vec<Hashes> = Vec::new();
     for (frame, &number) in numbers.iter().enumerate() {
         let pixels = window.anchors.pixels_in(&window.frames[frame].0);
         let (mut hashes, mut is_soft) = (Vec::new(), false);
@@ -111,11 +111,14 @@ pub(super) fn measure(
     Ok(Measured { numbers, pictures })
 }
 
+/// Hashes of a frame's takes; none of a picture that is the same everywhere.
+type Hashes = Vec<Option<blake3::Hash>>;
+
 /// Two frames of a window that are one picture, while the camera moves, or two takes that are one.
 fn check_repeated(
     window: &Window,
     (frame, numbers, moves): (usize, &[u32], f32),
-    (subject, before, hashes): (&Subject, &[Vec<Option<blake3::Hash>>], &[Option<blake3::Hash>]),
+    (subject, before, hashes): (&Subject, &[Hashes], &Hashes),
 ) -> Result<(), CliError> {
     let refuse = |take: usize, message: String| {
         Err(CliError::Frame { path: subject.takes[take].pattern.clone().into(), message })

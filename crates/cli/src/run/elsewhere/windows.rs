@@ -74,10 +74,10 @@ mod tests {
 
         let thin: Vec<u32> = (0..8).map(|i| 3 * i).collect();
         let thin = windows(&thin, 16);
-        assert_eq!((thin.places, thin.length, thin.step), (vec![0..8], 8, 3));
+        assert_eq!((thin.places.first(), thin.places.len(), thin.step), (Some(&(0..8)), 1, 3));
         assert!(thin.notes[0].contains("go by 3"), "{:?}", thin.notes);
 
         let one = windows(&[7], 16);
-        assert_eq!((one.places, one.notes.len()), (vec![0..1], 0));
+        assert_eq!((one.places.first(), one.places.len(), one.notes.len()), (Some(&(0..1)), 1, 0));
     }
 }
