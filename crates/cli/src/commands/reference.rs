@@ -24,7 +24,7 @@ pub(crate) fn run(args: &ReferenceArgs) -> Result<(), CliError> {
     // Names that are wrong are wrong before the first hour of work.
     let frames = numbers.map(|n| Ok((n, frame_of(path, n)?))).collect::<Result<Vec<_>, CliError>>()?;
     if let Some(folder) = args.out.parent().filter(|f| !f.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder).map_err(CliError::file(folder))?;
+        std::fs::create_dir_all(folder).map_err(CliError::file(&args.out))?;
     }
     let tracer = Tracer::new(&scene)?;
     let gpu = open_truth_gpu(on, &args.view.gpu)?;
