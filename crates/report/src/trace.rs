@@ -44,7 +44,10 @@ fn of_variant(card: &Scorecard, sums: &Baseline, of: &BaselineSums) -> Vec<Trace
     let side = 2 * card.provenance.tile_px;
     let trace = |(metric, number): (&'static str, PooledNumber)| {
         let [column, row] = worst(&tables[gate_table(number)], number)?;
-        let place = [column * side, row * side, side, side];
+        // A picture's last tiles may be cut.
+        let (left, top) = (column * side, row * side);
+        let room = |from: u32, whole: u32| side.min(whole.saturating_sub(from));
+        let place = [left, top, room(left, card.provenance.width), room(top, card.provenance.height)];
         let moves = ["swimming", "smooth_moving", "structured_moving"].contains(&metric);
         Some(Trace { window, variant, metric, place, frame: frame.filter(|_| moves) })
     };

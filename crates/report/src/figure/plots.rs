@@ -3,10 +3,10 @@
 use super::Chosen;
 use super::paint::style_sheet;
 use super::pdf::pdf_of_plot;
-use crate::ReportError;
 use crate::plot::{Look, pareto, per_frame};
 use crate::tables::legal_xml;
 use crate::words::full_name;
+use crate::{ReportError, Scorecard};
 use maud::{Markup, html};
 
 const LINE: f64 = 18.0;
@@ -16,11 +16,12 @@ pub(super) fn write(
     chosen: &Chosen,
     put: &mut impl FnMut(&str, &[u8]) -> Result<(), ReportError>,
 ) -> Result<(), ReportError> {
-    let window = &chosen.card.windows[chosen.window];
+    let card = &shown(chosen);
+    let window = &card.windows[chosen.window];
     let swimming = format!("SWIMMING per frame: {}, {}", window.scene, window.path);
     let plots = [
-        ("cost", "Error against cost".to_string(), pareto(chosen.card)),
-        ("swimming", swimming, per_frame(chosen.card, chosen.window)),
+        ("cost", "Error against cost".to_string(), pareto(card)),
+        ("swimming", swimming, per_frame(card, chosen.window)),
     ];
     for (name, title, plot) in plots {
         // A plot where nothing moves is a sentence without a drawing.
@@ -30,6 +31,14 @@ pub(super) fn write(
         put(&format!("{name}.pdf"), &pdf_of_plot(&svg, &title).map_err(broken)?)?;
     }
     Ok(())
+}
+
+/// The card with results of the chosen variants alone; every variant keeps its number, and with it its colour.
+fn shown(chosen: &Chosen) -> Scorecard {
+    let mut card = chosen.card.clone();
+    card.results.retain(|r| chosen.variants.contains(&r.variant));
+    card.overall.retain(|o| chosen.variants.contains(&o.variant));
+    card
 }
 
 /// The drawing of a plot as a file of its own, with the names of the variants under it.

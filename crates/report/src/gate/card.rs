@@ -166,7 +166,7 @@ impl GateCase {
     pub fn details(&self, gate: &GateCard) -> Vec<String> {
         let mut lines = Vec::new();
         if let Some([left, top, width, height]) = self.worst_place {
-            lines.push(format!("worst at pixels {left},{top} of {width}x{height}"));
+            lines.push(format!("worst at pixels {left},{top}, in a block of {width}x{height} (2x2 tiles)"));
         }
         lines.extend(self.worst_frame.map(|f| format!("worst frame {f}")));
         lines.extend(self.crop.as_ref().map(|c| format!("picture {c}")));

@@ -135,7 +135,9 @@ pub fn compare(base: &Baseline, run: &Baseline) -> Result<GateCard, ReportError>
             let cluster = pair.and_then(|p| p.worst_cluster(trial.number)).map(|[c, r]| {
                 // A cluster is 2x2 tiles.
                 let side = 2 * base.provenance.tile_px;
-                [c * side, r * side, side, side]
+                let room = |from: u32, whole: u32| side.min(whole.saturating_sub(from));
+                let (left, top) = (c * side, r * side);
+                [left, top, room(left, run.provenance.width), room(top, run.provenance.height)]
             });
             GateCase {
                 scene: pair.map(|p| p.window.scene.clone()),

@@ -62,7 +62,7 @@ fn thresholds() -> Markup {
             }
             p.says aria-live="polite" {}
             ul {}
-            p.note { "With the strictest step of the correction for many comparisons: the gate itself, which relaxes it step by step, may fail one or two more." }
+            p.note { "At these margins: what the gate failed. At others each score is judged by itself, without the correction for many comparisons: the gate may fail fewer." }
         }
     }
 }
@@ -74,6 +74,8 @@ struct Case {
     metric: String,
     margin: f64,
     pass_at: f64,
+    /// At its own margin, with the correction for all comparisons.
+    regressed: bool,
 }
 
 /// Every case that was judged, as JSON.
@@ -85,6 +87,7 @@ pub(super) fn cases(gate: &GateCard) -> String {
         metric: case.metric.clone(),
         margin: change.margin,
         pass_at: change.would_pass_at,
+        regressed: change.verdict == Verdict::Regressed,
     };
     // Strings and numbers alone: it cannot fail.
     serde_json::to_string(&judged.map(case).collect::<Vec<_>>()).unwrap_or_default()

@@ -133,7 +133,7 @@ fn time(card: &Scorecard) -> Markup {
             h2 { "Over time" }
             p.lede {
                 "What each frame adds to SWIMMING. Light and scene stand still, so at a fixed point of a surface nothing "
-                "should change: a calm variant is a line at 0. Shaded: 95 % intervals, where most frames can be told from 0. Dashed: as printed."
+                "should change: a calm variant is a line at 0. Shaded: 95 % intervals, where most frames can be told from 0, cut where they leave the plot. Dashed: as printed."
             }
             @for (index, window) in card.windows.iter().enumerate() {
                 h3 { (window.scene) " · " (window.path) " " span.muted { (window.speed) } }

@@ -28,6 +28,7 @@ pub(super) fn section(card: &Scorecard, book: &Book) -> Markup {
 
 fn window(card: &Scorecard, book: &Book, index: usize) -> Markup {
     let w = &card.windows[index];
+    let of = format!(" in {}, {}", w.scene, w.path);
     let is_printed = |v: &usize| card.variants[*v].calibration == Calibration::AsPrinted;
     let (printed, shown): (Vec<usize>, Vec<usize>) = (0..card.variants.len()).partition(is_printed);
     html! {
@@ -39,11 +40,11 @@ fn window(card: &Scorecard, book: &Book, index: usize) -> Markup {
             }
             @if book.has(index) {
                 div.strip-row {
-                    (figure(book.shown(index, Slot::Truth), "Truth", Some("shadow"), ("0", "1"), html! {
+                    (figure(book.shown(index, Slot::Truth), ("Truth", &of), Some("shadow"), ("0", "1"), html! {
                         "What every variant is compared with. Contact edges are sharp, and widen with the distance to what casts them."
                     }))
                     @if let Some(beauty) = book.shown(index, Slot::Beauty) {
-                        (figure(Some(beauty), "The view", None, ("", ""), html! { "Where this is: the scene, shaded with the true shadow." }))
+                        (figure(Some(beauty), ("The view", &of), None, ("", ""), html! { "Where this is: the scene, shaded with the true shadow." }))
                     }
                 }
                 @for v in shown { (variant(card, book, index, v)) }
@@ -98,6 +99,9 @@ fn variant(card: &Scorecard, book: &Book, window: usize, v: usize) -> Markup {
     let limit = end(book.error_limit);
     let swim = end(book.swim_limits.get(&window).copied().unwrap_or(1.0));
     let shown = |slot| book.shown(window, slot);
+    let place = &card.windows[window];
+    let of =
+        format!(" of {} ({}), {}, {}", subject.name, subject.calibration.label(), place.scene, place.path);
     html! {
         div.variant-row data-window=(window) data-variant=(v) {
             h4 {
@@ -106,9 +110,9 @@ fn variant(card: &Scorecard, book: &Book, window: usize, v: usize) -> Markup {
             }
             p.muted.line { (plain_line(scores)) }
             div.strip-row {
-                (figure(shown(Slot::Mask(v)), "Shadow", Some("shadow"), ("0", "1"), html! { (shadow_caption(scores)) }))
-                (figure(shown(Slot::Error(v)), "Signed error", Some("error"), (&format!("−{limit}"), &format!("+{limit}")), html! { (error_caption(scores)) }))
-                (figure(shown(Slot::Swim(v)), "Swim map", Some("swim"), ("0", &swim), html! { (swim_caption(scores)) @if let Some(caveat) = swim_caveat(card, v) { " " (caveat) "." } }))
+                (figure(shown(Slot::Mask(v)), ("Shadow", &of), Some("shadow"), ("0", "1"), html! { (shadow_caption(scores)) }))
+                (figure(shown(Slot::Error(v)), ("Signed error", &of), Some("error"), (&format!("−{limit}"), &format!("+{limit}")), html! { (error_caption(scores)) }))
+                (figure(shown(Slot::Swim(v)), ("Swim map", &of), Some("swim"), ("0", &swim), html! { (swim_caption(scores)) @if let Some(caveat) = swim_caveat(card, v) { " " (caveat) "." } }))
             }
         }
     }
@@ -117,7 +121,7 @@ fn variant(card: &Scorecard, book: &Book, window: usize, v: usize) -> Markup {
 /// A picture with its colour bar and what to look for.
 fn figure(
     shown: Option<&Shown>,
-    title: &str,
+    (title, of): (&str, &str),
     bar: Option<&str>,
     ends: (&str, &str),
     caption: Markup,
@@ -125,7 +129,7 @@ fn figure(
     html! {
         figure {
             @match shown {
-                Some(shown) => img src=(shown.source) width=(shown.width) height=(shown.height) alt=(title) loading="lazy" decoding="async";,
+                Some(shown) => img src=(shown.source) width=(shown.width) height=(shown.height) alt={ (title) (of) } loading="lazy" decoding="async";,
                 None => p.empty { "No picture." }
             }
             figcaption {
@@ -150,6 +154,7 @@ fn further(card: &Scorecard, window: usize) -> Markup {
         Some(Measured::NotMeasured { not_measured }) => not_measured.clone(),
         None => "not measured".into(),
     };
+    let score = |v: usize, id: &str| card.result(window, v)?.scores.get(id)?.score();
     html! {
         @if !rows.is_empty() {
             div.wide {
@@ -164,7 +169,12 @@ fn further(card: &Scorecard, window: usize) -> Markup {
                         @for m in rows {
                             tr {
                                 th scope="row" { a href={ "#metric-" (m.id) } { (m.name) } @if !m.unit.is_empty() { small { (m.unit) } } }
-                                @for v in 0..card.variants.len() { td { (text(v, &m.id)) } }
+                                @for v in 0..card.variants.len() {
+                                    @match score(v, &m.id) {
+                                        Some(s) => td data-metric=(m.id) data-variant=(v) data-value=(s.value) title=(text(v, &m.id)) { span.value { (text(v, &m.id)) } },
+                                        None => td { (text(v, &m.id)) },
+                                    }
+                                }
                             }
                         }
                     }

@@ -198,7 +198,7 @@ fn cost(card: &Scorecard, v: usize) -> Markup {
     let once =
         cost.once_per_scene_ms.map(|ms| format!("; once a scene {} ms", number(ms))).unwrap_or_default();
     html! {
-        td data-value=(cost.frame_ms_median) title={ "p95 " (number(cost.frame_ms_p95)) " ms; " (passes.join(", ")) (once) } {
+        td data-metric="cost" data-value=(cost.frame_ms_median) title={ "p95 " (number(cost.frame_ms_p95)) " ms; " (passes.join(", ")) (once) } {
             span.value { (number(cost.frame_ms_median)) }
             (strip(ends(cost), &axis, Target::Zero))
         }

@@ -136,7 +136,7 @@ fn findings() -> Markup {
 const KEYS: [(&str, &str); 17] = [
     (
         "1 – 9, shift-0 – 9",
-        "a variant into the right slot, in the order of the table; with shift the 10th to the 19th",
+        "a variant into the right slot, in the order of the choices beside \"Right\"; with shift the 10th to the 19th",
     ),
     ("R", "the truth into the left slot"),
     ("D", "difference: right minus left"),

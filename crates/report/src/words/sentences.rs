@@ -112,7 +112,7 @@ fn calmest_and_wildest(all: Comparison, ranked: &[(usize, Score)], name_calmest:
         sentence = sentence.number(free_score(ranked[0].1)).text("; ");
     }
     if tied.len() == ranked.len() && tied.len() > 1 {
-        let text = "no difference in SWIMMING could be resolved; the largest estimate is ";
+        let text = "over all scenes, and corrected for all pairs, no difference in SWIMMING could be resolved; the largest estimate is ";
         return sentence.text(text).number(free_score(size));
     }
     let verb = match (tied.len(), ranked.len()) {

@@ -90,6 +90,8 @@ export function openWindow(window) {
   const plot = document.querySelector(`#time svg.plot[data-window="${window}"]`);
   if (plot) {
     const copy = plot.cloneNode(true);
+    // The copy gets a cursor of its own.
+    copy.querySelectorAll(".now").forEach((line) => line.remove());
     find(".swimming").append(copy);
     scrubber(copy);
   }
@@ -169,6 +171,10 @@ function pointer() {
       else {
         state.view.x -= (x - before[0]) / state.view.zoom;
         state.view.y -= (y - before[1]) / state.view.zoom;
+        // Some of the picture stays in sight.
+        const { width, height } = current();
+        state.view.x = Math.max(0, Math.min(width, state.view.x));
+        state.view.y = Math.max(0, Math.min(height, state.view.y));
       }
       pointers.set(event.pointerId, [x, y]);
     }

@@ -5,7 +5,7 @@ import { CELLS, cellKinds, hasCells, tileOf, tileScore } from "./cells.js";
 import { positionOf } from "./points.js";
 import { current, middle, state } from "./state.js";
 
-const digits = (v, n = 4) => (v === undefined || v === null || Number.isNaN(v) ? "–" : v.toFixed(n));
+const digits = (v, n = 4) => (v === undefined || v === null || Number.isNaN(v) ? "–" : v.toFixed(n).replace(/^-(0\.?0*)$/, "$1"));
 const signed = (v, n = 4) => (v > 0 ? "+" : "") + digits(v, n).replace("-", "−");
 
 function fact(list, name, text, value) {

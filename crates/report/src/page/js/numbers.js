@@ -58,8 +58,10 @@ function copy({ pixels, width, height }, left, top, to) {
 }
 
 // One number a pixel, or a tile of `step` pixels.
-export function numbers(ctx, view, [ox, oy], { x0, x1, y0, y1 }, { value, form, step, ratio, size, scale }) {
+export function numbers(ctx, view, [ox, oy], { x0, x1, y0, y1 }, { value, form, step, ratio, size, scale, cut }) {
   const to = cleared(ctx.canvas);
+  // Half a number beside half of another layer's would be a third number.
+  const whole = ([low, high], from, upTo) => (low <= 0 || from >= low * ratio) && (high * ratio >= ctx.canvas.width || upTo <= high * ratio);
   const [dark, light] = [false, true].map((is) => setOf(form.size, ratio, is));
   const middle = (from, top) => 0.5 * (from + Math.min(top, from + step));
   for (let y = y0; y < y1; y += step) {
@@ -70,6 +72,7 @@ export function numbers(ctx, view, [ox, oy], { x0, x1, y0, y1 }, { value, form, 
       if (!text) continue;
       const set = (isDark(number, scale) ? light : dark)(text);
       const cx = (ox + middle(x, size.width) * view.zoom) * ratio;
+      if (!whole(cut, cx - set.width / 2, cx + set.width / 2)) continue;
       copy(set, Math.round(cx - set.width / 2), Math.round(cy - set.height / 2), to);
     }
   }

@@ -66,7 +66,7 @@ export function drawPane(ctx, ratio, view, pane, height, shown, marks) {
     // A tile has room for its number sooner than a pixel.
     const step = shown.tile || 1;
     form = view.zoom >= BORDERS_FROM || step > 1 ? fitting(shown.kind, shown.scale, view.zoom * step, ratio) : null;
-    if (form) numbers(ctx, view, origin, step > 1 ? wholeTiles(seen, step, shown.size) : seen, { ...shown, step, form, ratio });
+    if (form) numbers(ctx, view, origin, step > 1 ? wholeTiles(seen, step, shown.size) : seen, { ...shown, step, form, ratio, cut: [left + cut[0], left + cut[1]] });
     if (marks.tile) borders(ctx, view, origin, wholeTiles(seen, marks.tile, shown.size), marks.tile);
     marks.crosses.forEach((mark) => cross(ctx, view, origin, mark));
     if (marks.box) box(ctx, view, origin, marks.box);

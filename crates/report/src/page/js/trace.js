@@ -10,7 +10,7 @@ const quoted = (word) => (/^[\w./=+,:-]+$/.test(word) ? word : "'" + word.replac
 
 // The run's own command without its narrowing and its places, and narrowed to one thing.
 export function narrowed(command, w, variant) {
-  const words = command.match(/(?:[^\s']|'[^']*')+/g) ?? [];
+  const words = command.match(/(?:[^\s'\\]|'[^']*'|\\.)+/g) ?? [];
   const taken = ["--scene", "--path", "--variant", "--out", "--cache", "--baseline", "--save-baseline", "--baselines"];
   const kept = words.filter((word, i) => !taken.includes(word.split("=")[0]) && !(taken.includes(words[i - 1])));
   // Frames from elsewhere are scored whole.
@@ -28,7 +28,7 @@ export function openAt({ window, variant, kind = "error", place, frame = null })
   setMode("side");
   fillSlots();
   stage.dataset.opened = "true";
-  if (frame !== null) chooseFrame(frame - data.windows[window].first);
+  if (frame !== null) chooseFrame((frame - data.windows[window].first) / data.windows[window].step);
   root.scrollIntoView({ block: "start" });
   stage.focus({ preventScroll: true });
   if (place) requestAnimationFrame(() => zoomTo(place));
@@ -57,11 +57,16 @@ function paragraph(panel, text, className) {
   panel.append(p);
 }
 
+const COST = { name: "GPU time", definition: "Milliseconds a frame by timestamp queries: the median of many frames; the bar reaches the 95th percentile.", formula: "" };
+
+// A row of the table is a variant; of the further scores a column is.
+const variantOf = (cell) => Number(cell.dataset.variant ?? cell.closest("tbody").dataset.variant);
+
 function fill(panel, cell) {
-  const [variant, metric] = [Number(cell.closest("tbody").dataset.variant), cell.dataset.metric];
+  const [variant, metric] = [variantOf(cell), cell.dataset.metric];
   const article = cell.closest("article.window");
   const window = article ? Number(article.id.slice("window-".length)) : null;
-  const [about, of] = [data.metrics[metric], data.variants[variant]];
+  const [about, of] = [metric === "cost" ? COST : data.metrics[metric], data.variants[variant]];
   panel.replaceChildren();
   const head = document.createElement("h3");
   head.textContent = `${about?.name ?? metric}, ${of.name} (${of.label})`;
@@ -71,15 +76,16 @@ function fill(panel, cell) {
     paragraph(panel, about.definition);
     paragraph(panel, about.formula, "formula");
   }
-  // Nothing is worst where nothing is wrong.
-  const place = Number(cell.dataset.value) === 0 ? undefined : worst(metric, variant, window);
+  // Nothing is worst where nothing is wrong, and time has no place.
+  const placeless = Number(cell.dataset.value) === 0 || metric === "cost";
+  const place = placeless ? undefined : worst(metric, variant, window);
   const where = place?.window ?? window ?? 0;
   const w = data.windows[where];
   if (place) {
     const [x, y, width, height] = place.place;
     const frame = place.frame === null ? "" : `; frame ${place.frame} adds most`;
-    paragraph(panel, `Worst in ${w.scene}, ${w.path}, at pixels ${x}, ${y} (${width} × ${height})${frame}.`);
-  } else if (Number(cell.dataset.value) !== 0) paragraph(panel, "No worst place is stored for this score.", "muted");
+    paragraph(panel, `Worst in ${w.scene}, ${w.path}, in the block of 2 × 2 tiles at pixels ${x}, ${y} (${width} × ${height})${frame}.`);
+  } else if (!placeless) paragraph(panel, "No worst place is stored for this score.", "muted");
   const buttons = document.createElement("p");
   const button = (text, act) => {
     const made = document.createElement("button");
@@ -109,12 +115,12 @@ function fill(panel, cell) {
 export function startTraces() {
   const panel = document.querySelector("#trace");
   let from = null;
-  for (const cell of document.querySelectorAll("table.scores td[data-metric]")) {
+  for (const cell of document.querySelectorAll("table.scores td[data-metric], table.further td[data-metric]")) {
     const value = cell.querySelector(".value");
     const button = document.createElement("button");
     [button.type, button.className, button.textContent] = ["button", value.className + " number", value.textContent];
-    const row = cell.closest("tbody").querySelector("th strong").textContent;
-    button.dataset.of = `${data.metrics[cell.dataset.metric]?.name ?? ""} of ${row}`;
+    const of = data.variants[variantOf(cell)];
+    button.dataset.of = `${data.metrics[cell.dataset.metric]?.name ?? "GPU time"} of ${of.name}`;
     label(button);
     value.replaceWith(button);
     button.addEventListener("click", () => {
