@@ -59,6 +59,14 @@ fn a_run_becomes_crops_plots_tables_and_animations() {
     assert!(tex.contains("\nchss & ") && tex.contains("\nhard (as printed) & "), "{tex}");
     let svg = std::fs::read_to_string(out.join("swimming.svg")).expect("written");
     assert!(svg.starts_with("<svg xmlns=") && svg.trim_end().ends_with("</svg>"));
+    // Plots too are of the chosen ones alone.
+    assert!(
+        svg.contains(">chss, light-matched</text>")
+            || svg.contains(">chss (light-matched)</text>")
+            || svg.contains(">chss</text>"),
+        "{svg}"
+    );
+    assert!(!svg.contains("pcf"), "{svg}");
 }
 
 #[test]

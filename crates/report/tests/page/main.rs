@@ -4,6 +4,7 @@
 mod browser;
 #[path = "../fixture/mod.rs"]
 mod fixture;
+mod gate;
 mod layers;
 mod print;
 
@@ -257,6 +258,19 @@ fn a_number_says_where_it_comes_from() {
     );
     browser.wait("document.querySelector('.stage').dataset.mode === 'side'");
     assert_eq!(browser.eval("document.querySelector('select.right').value"), "v0-error");
+    // Scores beside the table say it too.
+    browser.eval("document.querySelector('#window-0 table.further td[data-metric] button').click()");
+    assert_eq!(browser.eval("document.querySelector('#trace').open"), true);
+    let command = browser.eval("document.querySelector('#trace .command').textContent");
+    assert!(command.as_str().is_some_and(|c| c.contains("--path") && c.contains("--variant")), "{command}");
+    browser.eval("document.querySelector('#trace').close()");
+    // A plot that was scrubbed before it was copied into the viewer brings no second cursor.
+    browser.key(".");
+    browser.eval(
+        "document.querySelector('#table td[data-metric=swimming] button').click(), \
+         [...document.querySelectorAll('#trace button')].find(b => b.textContent.startsWith('Look')).click()",
+    );
+    assert_eq!(browser.eval("document.querySelectorAll('.viewer .swimming .now').length"), 1);
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
 
