@@ -2,6 +2,7 @@
 //!
 //! Nothing is claimed that an interval does not carry; "could not be told apart" is an answer.
 
+use super::span::merged;
 use super::{Comparison, Sentence, any_swim_caveat, is_still, is_unresolved};
 use crate::numbers::{free_number, free_score, number, percent};
 use crate::{Scorecard, WindowCard};
@@ -77,7 +78,8 @@ fn motion(all: Comparison) -> Sentence {
     let unresolved = pick(&|s| !is_still(s) && is_unresolved(s));
     let mut parts: Vec<Sentence> = Vec::new();
     if !still.is_empty() {
-        let verb = if still.len() == 1 { " does not swim at all" } else { " do not swim at all" };
+        let verb =
+            if merged(all.card, &still).len() == 1 { " does not swim at all" } else { " do not swim at all" };
         parts.push(Sentence::default().variants(all.card, &still, 4).text(verb));
     }
     if !unresolved.is_empty() {
@@ -107,7 +109,7 @@ fn calmest_and_wildest(all: Comparison, ranked: &[(usize, Score)], name_calmest:
         ranked.iter().rev().map(|r| r.0).filter(|&v| v == most || !all.lower(v, most, "swimming")).collect();
     if name_calmest && tied.len() < ranked.len() {
         let calm = leaders(all, ranked, "swimming");
-        let verb = if calm.len() == 1 { " swims least, " } else { " swim least, " };
+        let verb = if merged(all.card, &calm).len() == 1 { " swims least, " } else { " swim least, " };
         sentence = sentence.variants(all.card, &calm, 3).text(verb);
         sentence = sentence.number(free_score(ranked[0].1)).text("; ");
     }
@@ -115,9 +117,11 @@ fn calmest_and_wildest(all: Comparison, ranked: &[(usize, Score)], name_calmest:
         let text = "over all scenes, and corrected for all pairs, no difference in SWIMMING could be resolved; the largest estimate is ";
         return sentence.text(text).number(free_score(size));
     }
-    let verb = match (tied.len(), ranked.len()) {
-        (1, 1) => " swims, SWIMMING ",
-        (1, _) => " swims most, SWIMMING ",
+    // Both calibrations of a name are said once.
+    let verb = match (tied.len(), merged(all.card, &tied).len(), ranked.len()) {
+        (1, _, 1) => " swims, SWIMMING ",
+        (1, ..) => " swims most, SWIMMING ",
+        (_, 1, _) => " swims most, SWIMMING up to ",
         _ => " swim most, SWIMMING up to ",
     };
     sentence.variants(all.card, &tied, 3).text(verb).number(free_score(size))

@@ -96,7 +96,7 @@ pub(crate) fn full_name(variant: &VariantCard) -> String {
 }
 
 /// One entry a name; its calibration is said only when the other one is not in the list.
-fn merged(card: &Scorecard, variants: &[usize]) -> Vec<(usize, String)> {
+pub(super) fn merged(card: &Scorecard, variants: &[usize]) -> Vec<(usize, String)> {
     let mut count: BTreeMap<&str, usize> = BTreeMap::new();
     for &v in variants {
         *count.entry(&card.variants[v].name).or_default() += 1;
