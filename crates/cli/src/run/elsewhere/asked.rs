@@ -36,7 +36,8 @@ pub(super) struct Unexplained {
 #[derive(Clone, Copy)]
 pub(super) struct Asked<'a> {
     pub(super) tracer: &'a Tracer,
-    pub(super) light: &'a AreaLight,
+    /// Of each frame that is shown: a light may move.
+    pub(super) lights: &'a [AreaLight],
     pub(super) size: (u32, u32),
     pub(super) shown: &'a [Shown],
     pub(super) by_depth: bool,
@@ -77,7 +78,7 @@ impl Asked<'_> {
         let by_depth = self.by_depth;
         let (mut differ, mut apart, mut all) = (0usize, 0.0f64, 0usize);
         let mut pairs: Vec<[f64; 2]> = Vec::new();
-        for shown in self.shown {
+        for (shown, light) in self.shown.iter().zip(self.lights) {
             let place = shown.place.checked_add_signed(guess.offset);
             let Some(camera) = place.and_then(|p| guess.cameras.get(p)) else { continue };
             if shown.place.checked_add_signed(offset).is_none_or(|p| p >= guess.cameras.len()) {
@@ -97,7 +98,7 @@ impl Asked<'_> {
                 continue;
             }
             let settings = TruthSettings { samples: 32, basis_samples: 0, ..TruthSettings::default() };
-            let truth = self.tracer.truth(&points, self.light, &settings);
+            let truth = self.tracer.truth(&points, light, &settings);
             let hits = grid.iter().zip(&depths).filter(|(_, d)| d.is_finite()).map(|(&p, _)| p);
             for ((pixel, &v), &facing) in hits.zip(&truth.mean).zip(&truth.facing) {
                 let here = shown.mask.pixels()[seen(pixel) as usize];

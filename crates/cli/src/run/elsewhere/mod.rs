@@ -29,7 +29,7 @@ use std::path::PathBuf;
 use umbrage_metrics::Bootstrap;
 use umbrage_reference::{Cache, Finder, Tracer, TruthGpu};
 use umbrage_report::{Margins, RunWriter, SUMS, Scorecard, WindowPictures};
-use umbrage_scene::{Camera, CameraFile, CameraPath, Scene};
+use umbrage_scene::{AreaLight, Camera, CameraFile, CameraPath, Scene};
 use window::{Readings, Request, Window};
 
 /// Everything that is decided before the work begins.
@@ -63,7 +63,7 @@ pub(crate) fn score(
     let mut notes: Vec<String> = plan.frames.spare(&plan.numbers, "camera");
     notes.extend(match args.no_projection_check {
         true => vec!["whether the cameras fit the frames was not checked: --no-projection-check".into()],
-        false => check_projection(plan, &tracer)?,
+        false => check_projection(plan, &tracer, args.light.is_some())?,
     });
     let windows = windows::windows(&plan.numbers, WINDOW as usize);
     notes.extend(windows.notes);
@@ -181,7 +181,11 @@ fn sampling(plan: &ScorePlan, args: &ScoreArgs, window: usize) -> Sampling {
 const CHECKED: usize = 5;
 
 /// Every take's cameras, in a few frames from the first to the last.
-fn check_projection(plan: &ScorePlan, tracer: &Tracer) -> Result<Vec<String>, CliError> {
+fn check_projection(
+    plan: &ScorePlan,
+    tracer: &Tracer,
+    light_is_given: bool,
+) -> Result<Vec<String>, CliError> {
     let count = plan.numbers.len();
     let mut places: Vec<usize> = (0..CHECKED).map(|i| i * (count - 1) / (CHECKED - 1)).collect();
     places.dedup();
@@ -189,7 +193,7 @@ fn check_projection(plan: &ScorePlan, tracer: &Tracer) -> Result<Vec<String>, Cl
     let (width, height) = plan.frames.size;
     let file = plan.file.as_ref().map(|file| (file, plan.scene.origin));
     let all = guesses(&cameras, width as f32 / height as f32, file);
-    let light = plan.path.frames[count / 2].light;
+    let lights: Vec<AreaLight> = places.iter().map(|&place| plan.path.frames[place].light).collect();
     let takes: Vec<_> = plan.frames.subjects.iter().flat_map(|s| &s.takes).collect();
     let mut said: Vec<String> = Vec::new();
     for take in &takes {
@@ -198,7 +202,12 @@ fn check_projection(plan: &ScorePlan, tracer: &Tracer) -> Result<Vec<String>, Cl
             let mask = plan.frames.mask(take, plan.numbers[place])?;
             shown.push(Shown { place, mask: mask.image, depth: mask.depth });
         }
-        let checked = projection::check(tracer, (&light, plan.frames.size), &shown, (&cameras, &all));
+        let checked = projection::check(
+            tracer,
+            (&lights, plan.frames.size),
+            (&shown, light_is_given),
+            (&cameras, &all),
+        );
         let words = checked.map_err(|refused| match refused {
             CliError::Projection(message) => CliError::Projection(format!("{}: {message}", take.pattern)),
             other => other,

@@ -22,7 +22,9 @@ const DEPTH_LIMIT: f64 = 0.02;
 /// Below this nothing is wrong, whatever fits better: silhouettes.
 const DEPTH_FINE: f64 = 2e-3;
 /// A mistake explains frames better where it leaves less than this part of what is unexplained.
-pub(super) const BETTER: f64 = 0.6;
+const BETTER: f64 = 0.6;
+/// The same of shadows, which a bad technique leaves unexplained from any camera.
+const BETTER_SHADOW: f64 = 0.5;
 /// A shadow that is less like truth's (1 - correlation) is of another scene, or of other cameras.
 const SHADOW_LIMIT: f64 = 0.5;
 /// Up to here a shadow says that cameras are right; beyond, that nothing better was found.
@@ -37,16 +39,16 @@ const NAMED: f64 = 0.1;
 /// What the check came to, in words.
 pub(super) fn check(
     tracer: &Tracer,
-    (light, size): (&AreaLight, (u32, u32)),
-    shown: &[Shown],
+    (lights, size): (&[AreaLight], (u32, u32)),
+    (shown, light_is_given): (&[Shown], bool),
     (given, guesses): (&[Camera], &[Guess]),
 ) -> Result<String, CliError> {
     let by_depth = shown.iter().all(|s| s.depth.as_ref().is_some_and(holds_depth));
-    let asked = Asked { tracer, light, size, shown, by_depth, points: POINTS };
+    let asked = Asked { tracer, lights, size, shown, by_depth, points: POINTS };
     let own = Guess::none(given);
     let cameras = check_cameras(&asked, (given, &own), guesses)?;
     // Depth knows nothing about the light, and cameras that fit by their shadow may still have a neighbour's.
-    let light = lights::check(&Asked { by_depth: false, ..asked }, &own, by_depth)?;
+    let light = lights::check(&Asked { by_depth: false, ..asked }, &own, (by_depth, light_is_given))?;
     let empty = shown.iter().any(|s| s.depth.is_some()) && !by_depth;
     let unread = if empty { "; the frames' depth holds no depth and was not used" } else { "" };
     Ok(format!("{cameras}; {light}{unread}"))
@@ -70,9 +72,9 @@ fn check_cameras(
             "the cameras could not be checked: nothing in the frames changes from point to point".into()
         );
     };
-    let (fine, limit) = match as_given.by_depth {
-        true => (DEPTH_FINE, DEPTH_LIMIT),
-        false => (SHADOW_FINE, SHADOW_LIMIT),
+    let (fine, limit, better) = match as_given.by_depth {
+        true => (DEPTH_FINE, DEPTH_LIMIT, BETTER),
+        false => (SHADOW_FINE, SHADOW_LIMIT, BETTER_SHADOW),
     };
     if !as_given.by_depth && as_given.part > INVERTED {
         return Err(CliError::Projection(
@@ -86,7 +88,7 @@ fn check_cameras(
     let tried = |g: &Guess| {
         let none = if g.offset == 0 { as_given } else { asked.unexplained(own, g.offset)? };
         let found = asked.unexplained(g, g.offset)?;
-        (found.part < BETTER * none.part && none.part > fine).then_some(found)
+        (found.part < better * none.part && none.part > fine).then_some(found)
     };
     let named = guesses.iter().filter_map(|g| Some((g.clone(), tried(g)?)));
     let named = named.min_by(|a, b| a.1.part.total_cmp(&b.1.part));
@@ -116,7 +118,7 @@ fn check_cameras(
     if as_given.part > limit {
         if !as_given.by_depth {
             // Another light may be what is wrong.
-            lights::check(asked, own, false)?;
+            lights::check(asked, own, (false, true))?;
         }
         return Err(CliError::Projection(format!(
             "{}, and no usual mistake explains it\n  help: check scene, light, scale and frame numbers; \

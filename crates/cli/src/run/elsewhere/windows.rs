@@ -25,6 +25,11 @@ pub(super) fn windows(numbers: &[u32], longest: usize) -> Windows {
     steps.iter().for_each(|&step| *counts.entry(step).or_default() += 1);
     // On ties the smallest.
     let usual = counts.iter().rev().max_by_key(|(_, count)| **count).map_or(1, |(&step, _)| step);
+    if 2 * counts.get(&usual).copied().unwrap_or(0) < steps.len() {
+        let notes =
+            vec!["the frames' numbers follow no step: each is scored by itself, without swimming".into()];
+        return Windows { places: (0..numbers.len()).map(|i| i..i + 1).collect(), length: 1, step: 1, notes };
+    }
     let gaps: Vec<usize> = (0..steps.len()).filter(|&i| steps[i] != usual).collect();
     let ends = gaps.iter().map(|i| i + 1).chain([numbers.len()]);
     let mut stretches: Vec<Range<usize>> = Vec::new();
@@ -76,6 +81,10 @@ mod tests {
         let thin = windows(&thin, 16);
         assert_eq!((thin.places.first(), thin.places.len(), thin.step), (Some(&(0..8)), 1, 3));
         assert!(thin.notes[0].contains("go by 3"), "{:?}", thin.notes);
+
+        let wild = windows(&[0, 5, 11, 18], 16);
+        assert_eq!((wild.places.len(), wild.length, wild.step), (4, 1, 1));
+        assert!(wild.notes[0].contains("follow no step"), "{:?}", wild.notes);
 
         let one = windows(&[7], 16);
         assert_eq!((one.places.first(), one.places.len(), one.notes.len()), (Some(&(0..1)), 1, 0));
