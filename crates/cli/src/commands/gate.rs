@@ -79,8 +79,8 @@ pub(super) fn check_name(name: &str) -> Result<(), CliError> {
 /// Judges a run, and stores what was found in its folder.
 pub(super) fn gate(base: &str, run: &Path, args: &GateArgs) -> Result<GateCard, CliError> {
     let sums = Baseline::load(&run.join(SUMS))?;
-    let (baseline, name) = find(base, &sums.provenance.adapter, &args.baselines)?;
     let place = place_of(base, &sums.provenance.adapter, &args.baselines)?;
+    let (baseline, name) = (Baseline::load(&place)?, name_of(base));
     let mut card = compare(&baseline, &sums)?;
     card.baseline = name.clone();
     let folder = match args.baselines.to_str() {
@@ -123,17 +123,11 @@ pub(super) fn place_of(base: &str, adapter: &AdapterCard, baselines: &Path) -> R
     found.cloned().ok_or(CliError::NoBaseline { name: base.into(), path: named })
 }
 
-/// A baseline, and what to call it: "standard.vulkan-llvmpipe.json" is "standard".
-fn find(base: &str, adapter: &AdapterCard, baselines: &Path) -> Result<(Baseline, String), CliError> {
-    let found = Baseline::load(&place_of(base, adapter, baselines)?)?;
+/// What to call a baseline, so that `accept` takes it: "standard.vulkan-llvmpipe.json" is "standard", "run 1" is "run-1".
+fn name_of(base: &str) -> String {
     let stem = Path::new(base).file_stem().map_or_else(|| base.into(), |s| s.to_string_lossy());
-    Ok((found, stem.split('.').next().map_or_else(String::new, name_from)))
-}
-
-/// A folder's name as that of a baseline: "run 1" is "run-1", so that `accept` takes it.
-fn name_from(stem: &str) -> String {
     let safe = |c: char| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' };
-    let name: String = stem.chars().map(safe).collect();
+    let name: String = stem.split('.').next().unwrap_or_default().chars().map(safe).collect();
     if name.is_empty() { "base".into() } else { name }
 }
 

@@ -1,5 +1,6 @@
 //! How much of what frames show is not explained by cameras and a light.
 
+use super::frames::Mask;
 use super::guesses::Guess;
 use crate::views::view_from;
 use umbrage_frame::{Image, View};
@@ -10,8 +11,7 @@ use umbrage_scene::AreaLight;
 pub(super) struct Shown {
     /// Its place in the list of cameras.
     pub(super) place: usize,
-    pub(super) mask: Image<f32>,
-    pub(super) depth: Option<Image<f32>>,
+    pub(super) mask: Mask,
 }
 
 /// Depths differ by so much of themselves: half floats round by 5e-4 of them. A field of view wrong by 1 % moves
@@ -54,7 +54,7 @@ pub(super) fn holds_depth(depth: &Image<f32>) -> bool {
 impl Asked<'_> {
     /// Whether the frames show anything at all.
     fn varies(&self, grid: &[u32]) -> bool {
-        let values = self.shown.iter().flat_map(|s| grid.iter().map(|&p| s.mask.pixels()[p as usize]));
+        let values = self.shown.iter().flat_map(|s| grid.iter().map(|&p| s.mask.image.pixels()[p as usize]));
         let (low, high) =
             values.filter(|v| v.is_finite()).fold((f32::MAX, f32::MIN), |(l, h), v| (l.min(v), h.max(v)));
         high - low > VARIES
@@ -62,7 +62,7 @@ impl Asked<'_> {
 
     /// Whether depths may be what a projection makes of them.
     pub(super) fn holds_buffer_depth(&self) -> bool {
-        let depths = self.shown.iter().filter_map(|s| s.depth.as_ref());
+        let depths = self.shown.iter().filter_map(|s| s.mask.depth.as_ref());
         depths.flat_map(|d| d.pixels()).all(|v| (0.0..=1.0).contains(v))
     }
 
@@ -87,7 +87,7 @@ impl Asked<'_> {
             let view = view_from(camera, self.size);
             let seen = |pixel: u32| guess.flipped(pixel, self.size);
             let (depths, points) = self.tracer.primary_some(&view, &grid);
-            if let Some(depth) = shown.depth.as_ref().filter(|_| by_depth) {
+            if let Some(depth) = shown.mask.depth.as_ref().filter(|_| by_depth) {
                 for (&pixel, &truth) in grid.iter().zip(&depths) {
                     let here = depth.pixels()[seen(pixel) as usize] * guess.depth_unit;
                     let off = depth_apart(here, truth, &view, pixel);
@@ -101,7 +101,7 @@ impl Asked<'_> {
             let truth = self.tracer.truth(&points, light, &settings);
             let hits = grid.iter().zip(&depths).filter(|(_, d)| d.is_finite()).map(|(&p, _)| p);
             for ((pixel, &v), &facing) in hits.zip(&truth.mean).zip(&truth.facing) {
-                let here = shown.mask.pixels()[seen(pixel) as usize];
+                let here = shown.mask.image.pixels()[seen(pixel) as usize];
                 if facing && here.is_finite() {
                     pairs.push([f64::from(here), f64::from(v)]);
                 }

@@ -11,7 +11,7 @@ use umbrage_scene::AreaLight;
 
 /// Below this part unexplained (1 - correlation) no other light is looked for: good real-time shadows leave .01.
 const FINE: f64 = 0.01;
-/// A shadow less alike than this is another light's, whichever.
+/// A shadow less alike than this is another light's, whichever (as `projection::SHADOW_LIMIT`).
 const LIMIT: f64 = 0.5;
 /// Another light explains frames better where it leaves less than this part of what is unexplained: techniques that are
 /// bad (a blurred exponential map over thin poles) come to .6 with a sun a degree off.

@@ -199,8 +199,7 @@ fn check_projection(
     for take in &takes {
         let mut shown = Vec::new();
         for &place in &places {
-            let mask = plan.frames.mask(take, plan.numbers[place])?;
-            shown.push(Shown { place, mask: mask.image, depth: mask.depth });
+            shown.push(Shown { place, mask: plan.frames.mask(take, plan.numbers[place])? });
         }
         let checked = projection::check(
             tracer,

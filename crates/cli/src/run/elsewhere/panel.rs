@@ -11,12 +11,16 @@ use umbrage_metrics::{Panel, Region};
 
 /// A mean motion below this many pixels between frames leaves a hard shadow's picture as it was.
 const MOVES: f32 = 1.0;
-/// A soft shadow's picture changes somewhere with any motion that can be seen.
+/// A soft shadow's picture changes somewhere with any motion that can be seen: over a penumbra of ten pixels a twentieth of one is
+/// .005, more than a step of 8 bits.
 const MOVES_SOFT: f32 = 0.05;
 /// Pixels of half shadow that make a picture soft.
 const SOFT: usize = 100;
-/// Fully lit points are lit: a median farther from 1 is another scale, of a ratio another exposure.
+/// Fully lit points are lit: a median farther from 1 is another scale, of a ratio another exposure. Steps of 8 bits near white are
+/// .009 of light through sRGB's curve, so that twice as much is no rounding.
 const LIT_NOTED: f32 = 0.02;
+/// A seventh of a stop: pictures of one exposure have a ratio of 1 where nothing is hidden. A mask is never refused for it: acne may
+/// darken what is lit, which is a score's to tell.
 const LIT_REFUSED: f32 = 0.1;
 /// Fewer lit points say nothing.
 const FEWEST_LIT: usize = 100;

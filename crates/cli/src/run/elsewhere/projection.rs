@@ -25,9 +25,11 @@ const DEPTH_FINE: f64 = 2e-3;
 const BETTER: f64 = 0.6;
 /// The same of shadows, which a bad technique leaves unexplained from any camera.
 const BETTER_SHADOW: f64 = 0.5;
-/// A shadow that is less like truth's (1 - correlation) is of another scene, or of other cameras.
+/// A shadow that is less like truth's (1 - correlation) is of another scene, or of other cameras: of the techniques'
+/// frames that were tried the least alike left .28 (an exponential map over thin poles).
 const SHADOW_LIMIT: f64 = 0.5;
-/// Up to here a shadow says that cameras are right; beyond, that nothing better was found.
+/// Up to here a shadow says that cameras are right; beyond, that nothing better was found. A hard shadow in place of one of a sun
+/// of 2 degrees leaves .03 on the colonnade.
 const SHADOW_SURE: f64 = 0.05;
 /// A correlation below -.3: lit and dark are exchanged.
 const INVERTED: f64 = 1.3;
@@ -43,13 +45,13 @@ pub(super) fn check(
     (shown, light_is_given): (&[Shown], bool),
     (given, guesses): (&[Camera], &[Guess]),
 ) -> Result<String, CliError> {
-    let by_depth = shown.iter().all(|s| s.depth.as_ref().is_some_and(holds_depth));
+    let by_depth = shown.iter().all(|s| s.mask.depth.as_ref().is_some_and(holds_depth));
     let asked = Asked { tracer, lights, size, shown, by_depth, points: POINTS };
     let own = Guess::none(given);
     let cameras = check_cameras(&asked, (given, &own), guesses)?;
     // Depth knows nothing about the light, and cameras that fit by their shadow may still have a neighbour's.
     let light = lights::check(&Asked { by_depth: false, ..asked }, &own, (by_depth, light_is_given))?;
-    let empty = shown.iter().any(|s| s.depth.is_some()) && !by_depth;
+    let empty = shown.iter().any(|s| s.mask.depth.is_some()) && !by_depth;
     let unread = if empty { "; the frames' depth holds no depth and was not used" } else { "" };
     Ok(format!("{cameras}; {light}{unread}"))
 }
