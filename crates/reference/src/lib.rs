@@ -47,6 +47,7 @@ mod error;
 mod finder;
 mod gpu;
 mod irradiance;
+mod mates;
 mod owen;
 mod primary;
 mod radiance;

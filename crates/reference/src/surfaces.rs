@@ -5,6 +5,7 @@
 
 use crate::ReferenceError;
 use crate::cutouts::Cutouts;
+use crate::mates::Mates;
 use glam::{DVec3, Vec3, Vec3A};
 use obvhs::{BvhBuildParams, bvh2::Bvh2, bvh2::builder::build_bvh2_from_tris, ray::Ray, triangle::Triangle};
 use umbrage_scene::Scene;
@@ -22,6 +23,8 @@ pub(crate) struct Surfaces {
     pub(crate) triangle_of_slot: Vec<u32>,
     /// Triangle of the scene to slot.
     slot_of_triangle: Vec<u32>,
+    /// In slots.
+    pub(crate) mates: Mates,
     /// Those that are not there everywhere; `None` where all are.
     pub(crate) cutouts: Option<Cutouts>,
     /// Largest absolute coordinate, metres.
@@ -60,10 +63,13 @@ impl Surfaces {
             slot_of_triangle[triangle as usize] = slot as u32;
         }
         let corners = triangle_of_slot.iter().map(|&t| geometry.corners(t as usize)).collect();
+        let in_slots: Vec<[u32; 3]> =
+            triangle_of_slot.iter().map(|&t| geometry.triangles[t as usize]).collect();
+        let mates = Mates::new(&geometry.positions, &in_slots);
         let (low, high) = geometry.bounds();
         let extent = low.abs().max(high.abs()).max_element();
         let cutouts = Cutouts::new(scene, &triangle_of_slot);
-        Ok(Self { bvh, corners, triangle_of_slot, slot_of_triangle, cutouts, extent })
+        Ok(Self { bvh, corners, triangle_of_slot, slot_of_triangle, mates, cutouts, extent })
     }
 
     /// Where a triangle of the scene stands; `None` for `u32::MAX` and other strangers.

@@ -207,6 +207,18 @@ impl Block {
         }
     }
 
+    /// Corners as seen from a place.
+    #[inline(always)]
+    pub(crate) fn from(&self, place: Vec3) -> [[Eight; 3]; 3] {
+        let place = place.to_array();
+        three!(i => three!(axis => self.corners[i][axis] - Eight::all(place[axis])))
+    }
+
+    /// A bit for each triangle that there is.
+    pub(crate) fn used(&self) -> u32 {
+        self.used
+    }
+
     #[inline(always)]
     pub(crate) fn triangle(&self, lane: usize) -> [Vec3; 3] {
         three!(corner => Vec3::from_array(three!(axis => self.corners[corner][axis].0[lane])))
@@ -265,17 +277,9 @@ impl Survey {
         let (nearest, farthest) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
         let front = (farthest * Eight::all(1e-6)).below(nearest);
         let [a, b, c] = [a[0] / a[1], b[0] / b[1], c[0] / c[1]];
-        let mut low = front.pick(a.min(b).min(c), Eight::all(-BEYOND));
-        let mut high = front.pick(a.max(b).max(c), Eight::all(BEYOND));
-        if let Some(cone) = &frame.cone {
-            [low, high] = cone.angles(low, high);
-        }
-        let half = 0.5 * ruling.rows as f32;
-        let middle = half + ruling.before();
-        // Row j of a replicate stands between j and j + 1.
-        let first = low * Eight::all(half) + Eight::all(middle - 1.0 - MARGIN * half);
-        let last = high * Eight::all(half) + Eight::all(middle + 1.0 + MARGIN * half);
-        [first.floor(), last.floor()]
+        let low = front.pick(a.min(b).min(c), Eight::all(-BEYOND));
+        let high = front.pick(a.max(b).max(c), Eight::all(BEYOND));
+        frame.rows(ruling, low, high)
     }
 
     /// `a x + b y + c` of the edges, not negative inside.
@@ -308,7 +312,7 @@ fn most(n: Vec3, centre: &[Eight; 3], half: &[Eight; 3]) -> Eight {
 /// The cross product of sum and difference, halved: `from x to`, but it negates exactly when the
 /// ends change places. Nothing leaks between neighbours.
 #[inline(always)]
-fn edge(from: &[Eight; 3], to: &[Eight; 3]) -> [Eight; 3] {
+pub(crate) fn edge(from: &[Eight; 3], to: &[Eight; 3]) -> [Eight; 3] {
     let s = three!(i => Eight::all(0.5) * (from[i] + to[i]));
     let d = three!(i => to[i] - from[i]);
     [s[1] * d[2] - s[2] * d[1], s[2] * d[0] - s[0] * d[2], s[0] * d[1] - s[1] * d[0]]

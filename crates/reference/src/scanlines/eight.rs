@@ -118,16 +118,26 @@ impl Eight {
         out
     }
 
-    /// The number of samples before each place, as the lowest bits of a mask.
+    /// The number of samples before each place, at most 32.
     #[inline(always)]
-    pub(crate) fn before(self) -> [u32; LANES] {
+    pub(crate) fn number(self) -> [u32; LANES] {
         let place = self.max(Self::all(0.0)).min(Self::all(32.0));
         let place = each_lane!(place.0, a => a.ceil());
         let mut out = [0; LANES];
         for k in 0..LANES {
             // The sum's lowest bits are the number.
-            let number = (place.0[k] + 8_388_608.0).to_bits() & 0x3f;
-            out[k] = 1u32.unbounded_shl(number).wrapping_sub(1);
+            out[k] = (place.0[k] + 8_388_608.0).to_bits() & 0x3f;
+        }
+        out
+    }
+
+    /// The number of samples before each place, as the lowest bits of a mask.
+    #[inline(always)]
+    pub(crate) fn before(self) -> [u32; LANES] {
+        let number = self.number();
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            out[k] = 1u32.unbounded_shl(number[k]).wrapping_sub(1);
         }
         out
     }

@@ -1,6 +1,8 @@
 //! A light's axes as one receiver sees them, and how its rows lie in them.
 
-use super::eight::Eight;
+use super::eight::{Eight, LANES};
+use super::lines::Ruling;
+use super::outline::MARGIN;
 use crate::aim::{Aim, Distance, Outline, Spread};
 use crate::rays::LIGHT_GAP;
 use crate::receiver::Receiver;
@@ -102,6 +104,21 @@ impl Frame {
     /// A plane's linear form on the light.
     pub(crate) fn form(&self, normal: DVec3) -> [f32; 3] {
         self.axes.map(|axis| normal.dot(axis) as f32)
+    }
+
+    /// The first row that may be at a place across the rows or above, and the one after the last that may be at
+    /// another or below.
+    #[inline(always)]
+    pub(crate) fn rows(&self, ruling: &Ruling, mut low: Eight, mut high: Eight) -> [[u32; LANES]; 2] {
+        if let Some(cone) = &self.cone {
+            [low, high] = cone.angles(low, high);
+        }
+        let half = 0.5 * ruling.rows as f32;
+        let middle = half + ruling.before();
+        // Row j of a replicate stands between j and j + 1.
+        let first = low * Eight::all(half) + Eight::all(middle - 1.0 - MARGIN * half);
+        let last = high * Eight::all(half) + Eight::all(middle + 1.0 + MARGIN * half);
+        [first.floor(), last.floor()]
     }
 
     /// Where a sample stands in the aim's coordinates: `along` of a row from -1 to 1.

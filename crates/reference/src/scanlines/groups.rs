@@ -3,7 +3,9 @@
 use super::Rulings;
 use super::blocks::{Blocks, Survey};
 use super::lines::{Lines, REPLICATES};
+use super::patches::Patches;
 use super::volume;
+use super::winding::Winding;
 use crate::Points;
 use crate::receiver::Receiver;
 use crate::samples::LightSamples;
@@ -21,7 +23,12 @@ const TOGETHER: usize = 64;
 #[derive(Default)]
 pub(super) struct Desk {
     pub(super) scratch: Scratch,
+    /// Triangles that are sure to be between, as edges.
+    pub(super) patches: Patches,
+    pub(super) winding: Winding,
+    /// The others.
     pub(super) blocks: Blocks,
+    all: Blocks,
     /// Cut-out triangles.
     pub(super) cards: Blocks,
     /// What was hidden before one of them, per row.
@@ -90,8 +97,10 @@ impl<F: Find> WithSimd for Group<'_, F> {
                 surfaces,
                 task.light,
                 &receivers,
-                (&mut desk.open, &mut desk.blocks, &mut desk.cards),
+                (&mut desk.open, &mut desk.all, &mut desk.cards),
             );
+            desk.patches.sort(surfaces, task.light, &receivers, (&desk.all, &mut desk.blocks));
+            desk.blocks.close();
         }
         let mut last = 0;
         let mut found = Vec::with_capacity(order.len());

@@ -7,6 +7,7 @@ use super::groups::Desk;
 use super::lines::Lines;
 use super::lines::Ruling;
 use super::outline::{self, Edge, Outline};
+use super::patches::Past;
 use super::veil::Veil;
 use crate::aim::{Aim, Elevation};
 use crate::rays;
@@ -63,6 +64,13 @@ fn past_whole(
         lines.trace((frame, turn, aim), &mut desk.samples, hidden);
         return Sight::Sampled;
     }
+    let past = match desk.patches.is_empty() {
+        true => Past::Lit,
+        false => desk.patches.look(receiver, frame),
+    };
+    if matches!(past, Past::Hidden) {
+        return Sight::Hidden;
+    }
     // What hides the whole light comes before any sample, first of all the block that hid it from the
     // neighbour.
     let blocks = &desk.blocks;
@@ -92,11 +100,21 @@ fn past_whole(
             }
         }
     }
-    if desk.surveys.is_empty() {
+    if matches!(past, Past::Lit) && desk.surveys.is_empty() {
         return if drawn { Sight::Sampled } else { Sight::Lit };
     }
     if !drawn {
         ruling.fill(lines, frame, turn, seed);
+    }
+    if matches!(past, Past::Crossed) {
+        desk.winding.start(ruling);
+        for seen in &desk.patches.seen {
+            desk.winding.add(seen, lines, (frame, ruling, turn));
+        }
+        desk.winding.hide(lines);
+        if lines.full() {
+            return Sight::Sampled;
+        }
     }
     for (at, survey) in &desk.surveys {
         let sides = survey.sides(frame, ruling, turn);

@@ -7,15 +7,19 @@
 #![expect(clippy::needless_range_loop, reason = "a lane is an index into several arrays at once")]
 
 mod blocks;
+mod edges;
 mod eight;
+mod facing;
 mod frame;
 mod groups;
 mod lines;
 mod look;
 mod outline;
+mod patches;
 mod veil;
 mod volume;
 mod weights;
+mod winding;
 
 use crate::Points;
 use crate::TruthSettings;

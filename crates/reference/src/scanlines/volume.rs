@@ -47,7 +47,6 @@ pub(super) fn gather(
             }
         }
     }
-    blocks.close();
     cards.close();
 }
 

@@ -1,0 +1,182 @@
+//! What is sure of eight triangles from all receivers of a group at once.
+//!
+//! Bounds are f32 with every rounding counted; what is not sure is asked again at each receiver.
+
+use super::blocks::Block;
+use super::eight::{Eight, bytes};
+use crate::aim::{Aim, Distance, Spread};
+use crate::rays::LIGHT_GAP;
+use crate::receiver::Receiver;
+use glam::{DVec3, Vec3};
+use umbrage_scene::AreaLight;
+
+/// f32 rounds by 2^-24 each time: what a height of a few dozen operations may be off by, for each metre of what
+/// it was made of.
+const ROUNDING: f32 = 4e-6;
+
+/// Where the receivers of a group are, and how the light lies to them.
+pub(super) struct Standpoint {
+    centre: Vec3,
+    /// Half of the box around all places, rounding included.
+    half: Vec3,
+    /// The middle of all normals, and half of the box around them.
+    normal: Vec3,
+    sway: Vec3,
+    /// The highest place along `normal`, from the centre.
+    height: f32,
+    extent: f32,
+    far: Far,
+}
+
+/// Between which depths a triangle surely stands before the light.
+enum Far {
+    /// Along a direction, from the centre: above the first and below the second.
+    Plane { axis: Vec3, range: [f32; 2] },
+    /// Towards a sphere's centre; how far the receivers are from the group's, and the most that
+    /// `corner . axis` may be.
+    Ball { axis: Vec3, reach: f32, most: f32 },
+}
+
+/// A bit for each triangle of a block.
+#[derive(Clone, Copy)]
+pub(super) struct Sure {
+    /// Wholly before all receivers and nearer than the light.
+    pub(super) between: u32,
+    /// Surely not the receiver's own, in its plane or below its horizon.
+    pub(super) clear: u32,
+    /// All receivers are on one side of its plane; on which.
+    pub(super) sided: u32,
+    pub(super) behind: u32,
+}
+
+impl Standpoint {
+    /// `None` where the light stands differently to different receivers.
+    pub(super) fn new(light: &AreaLight, receivers: &[Receiver]) -> Option<Self> {
+        let fold = |pick: fn(&Receiver) -> DVec3| {
+            receivers.iter().map(pick).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+                (low.min(p), high.max(p))
+            })
+        };
+        let (low, high) = fold(|r| r.position);
+        let centre = ((low + high) * 0.5).as_vec3();
+        let (below, above) = (centre.as_dvec3() - low, high - centre.as_dvec3());
+        let widened = |v: DVec3| v.as_vec3() * (1.0 + ROUNDING) + Vec3::splat(1e-30);
+        let half = widened(below.max(above));
+        let (low, high) = fold(|r| r.normal);
+        let normal = ((low + high) * 0.5).as_vec3();
+        let sway = widened((normal.as_dvec3() - low).max(high - normal.as_dvec3()));
+        let reach = |axis: DVec3| {
+            let along = receivers.iter().map(|r| axis.dot(r.position - centre.as_dvec3()));
+            along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)])
+        };
+        let middle = Receiver { position: centre.as_dvec3(), ..receivers[0] };
+        let aim = Aim::new(light, &middle)?;
+        let far = match aim.spread {
+            Spread::Cone { distance: Distance::Infinite, .. } => {
+                let axis = aim.axis.normalize();
+                Far::Plane { axis: axis.as_vec3(), range: [reach(axis)[1] as f32, f32::INFINITY] }
+            }
+            Spread::Area => {
+                let axis = aim.u.cross(aim.v).try_normalize()?;
+                let axis = if axis.dot(aim.axis) < 0.0 { -axis } else { axis };
+                let light = axis.dot(aim.axis);
+                let [nearest, farthest] = reach(axis);
+                if light - farthest <= 0.0 {
+                    return None;
+                }
+                let most = light - 2.0 * LIGHT_GAP * (light - nearest);
+                Far::Plane { axis: axis.as_vec3(), range: [farthest as f32, most as f32] }
+            }
+            Spread::Cone { one_minus_cos, distance: Distance::Sphere } => {
+                let cos = 1.0 - one_minus_cos;
+                let radius = aim.axis.length() * (1.0 - cos * cos).sqrt();
+                let reach = f64::from(half.length());
+                let length = aim.axis.length() - reach;
+                if length <= radius {
+                    return None;
+                }
+                // (corner - p) . (light - p) is below this for every receiver p if nearer than the near side.
+                let most = length * (length - radius) * (1.0 - 2.0 * LIGHT_GAP) - reach * reach;
+                Far::Ball { axis: aim.axis.as_vec3(), reach: reach as f32, most: most as f32 }
+            }
+        };
+        let height = reach(normal.as_dvec3())[1] as f32;
+        Some(Self { centre, half, normal, sway, height, extent: centre.abs().element_sum(), far })
+    }
+
+    #[inline(always)]
+    pub(super) fn sure(&self, block: &Block) -> Sure {
+        let c = self.centre;
+        let d = block.from(c);
+        let [a, b, c] = &d;
+        let ([p, q, r], one) = ([abs(a), abs(b), abs(c)], Vec3::ONE);
+        let size = dot(one, &p).max(dot(one, &q)).max(dot(one, &r)) + Eight::all(self.extent);
+        let rounding = size * Eight::all(ROUNDING);
+        // Heights over every receiver's horizon.
+        let p = dot(self.normal, a) - dot(self.sway, &p);
+        let q = dot(self.normal, b) - dot(self.sway, &q);
+        let r = dot(self.normal, c) - dot(self.sway, &r);
+        let highest = p.max(q).max(r);
+        let clear = (Eight::all(self.height + self.sway.dot(self.half)) + rounding).below(highest);
+        let between = self.between(&d, rounding);
+        // The height of the triangle's plane over the centre, times twice its area.
+        let (p, q) = (sub(b, a), sub(c, a));
+        let half = self.half.to_array();
+        let mut plane = Eight::all(0.0);
+        let mut off = Eight::all(0.0);
+        for [i, j, k] in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
+            let (x, y) = (p[j] * q[k], p[k] * q[j]);
+            let n = x - y;
+            plane = plane + n * a[i];
+            let wide = a[i].abs() + Eight::all(half[i]);
+            off = off
+                + n.abs() * (Eight::all(half[i]) + rounding)
+                + (x.abs() + y.abs()) * wide * Eight::all(ROUNDING);
+        }
+        let sided = off.below(plane.abs());
+        let behind = plane.below(Eight::all(0.0));
+        let [between, clear, sided, behind] = bytes([between, clear, sided, behind]);
+        Sure { between, clear, sided, behind }
+    }
+
+    #[inline(always)]
+    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> super::eight::Mask {
+        match self.far {
+            Far::Plane { axis, range: [nearest, most] } => {
+                let [a, b, c] = [dot(axis, a), dot(axis, b), dot(axis, c)];
+                let front = (Eight::all(nearest) + rounding).below(a.min(b).min(c));
+                front.and((a.max(b).max(c) + rounding).below(Eight::all(most)))
+            }
+            Far::Ball { axis, reach, most } => {
+                let away = length(axis, a).max(length(axis, b)).max(length(axis, c));
+                let spread = away * Eight::all(reach * (1.0 + ROUNDING))
+                    + rounding * Eight::all(axis.abs().element_sum());
+                let [a, b, c] = [dot(axis, a), dot(axis, b), dot(axis, c)];
+                let front = spread.below(a.min(b).min(c));
+                front.and((a.max(b).max(c) + spread).below(Eight::all(most)))
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn dot(n: Vec3, v: &[Eight; 3]) -> Eight {
+    Eight::all(n.x) * v[0] + Eight::all(n.y) * v[1] + Eight::all(n.z) * v[2]
+}
+
+#[inline(always)]
+fn abs(v: &[Eight; 3]) -> [Eight; 3] {
+    [v[0].abs(), v[1].abs(), v[2].abs()]
+}
+
+/// Of the sum.
+#[inline(always)]
+fn length(n: Vec3, v: &[Eight; 3]) -> Eight {
+    let s = [v[0] + Eight::all(n.x), v[1] + Eight::all(n.y), v[2] + Eight::all(n.z)];
+    (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]).sqrt()
+}
+
+#[inline(always)]
+fn sub(a: &[Eight; 3], b: &[Eight; 3]) -> [Eight; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
