@@ -26,16 +26,30 @@ pub(crate) struct Receiver {
 impl Receiver {
     /// One of the points. A point without a triangle keeps its place and normal as given.
     pub(crate) fn new(surfaces: &Surfaces, points: &Points, index: usize) -> Self {
+        Self::beside(None, surfaces, points, index)
+    }
+
+    /// The same after another, whose normal it has if they are on one side of one triangle.
+    #[inline(always)]
+    pub(crate) fn beside(other: Option<&Self>, surfaces: &Surfaces, points: &Points, index: usize) -> Self {
         let position = points.position[index].as_dvec3();
-        let normal = points.normal[index].as_dvec3().normalize_or_zero();
         let Some(slot) = surfaces.slot(points.triangle[index]) else {
+            let normal = points.normal[index].as_dvec3().normalize_or_zero();
             return Self { position, normal, slot: None };
         };
-        let [a, b, c] = surfaces.corners_f64(slot);
-        let Some(own) = (b - a).cross(c - a).try_normalize() else {
-            return Self { position, normal, slot: Some(slot) };
+        let given = points.normal[index].as_dvec3();
+        let own = match other {
+            Some(other) if other.slot == Some(slot) && other.normal.dot(given) > 0.5 => other.normal,
+            _ => {
+                let normal = given.normalize_or_zero();
+                let [a, b, c] = surfaces.corners_f64(slot);
+                let Some(own) = (b - a).cross(c - a).try_normalize() else {
+                    return Self { position, normal, slot: Some(slot) };
+                };
+                if own.dot(normal) < 0.0 { -own } else { own }
+            }
         };
-        let own = if own.dot(normal) < 0.0 { -own } else { own };
+        let a = surfaces.corners[slot as usize][0].as_dvec3();
         Self { position: position + own * own.dot(a - position), normal: own, slot: Some(slot) }
     }
 

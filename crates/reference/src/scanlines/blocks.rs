@@ -68,6 +68,15 @@ pub(crate) struct Survey {
     pub(crate) doubtful: u32,
 }
 
+/// A bit for each triangle of a block.
+pub(crate) struct Face {
+    /// Whether `behind` can be relied on.
+    pub(crate) sure: u32,
+    pub(crate) behind: u32,
+    /// Surely above the receiver's horizon.
+    pub(crate) clear: u32,
+}
+
 impl Blocks {
     pub(crate) fn clear(&mut self) {
         self.blocks.clear();
@@ -212,6 +221,32 @@ impl Block {
     pub(crate) fn from(&self, place: Vec3) -> [[Eight; 3]; 3] {
         let place = place.to_array();
         three!(i => three!(axis => self.corners[i][axis] - Eight::all(place[axis])))
+    }
+
+    /// Which side of each triangle a receiver sees, as far as f32 can tell.
+    #[inline(always)]
+    pub(crate) fn face(&self, frame: &Frame) -> Face {
+        let [high, low] = frame.place.map(|p| p.to_array());
+        let [a, b, c] = three!(i => three!(axis => {
+            (self.corners[i][axis] - Eight::all(high[axis])) - Eight::all(low[axis])
+        }));
+        let size = three!(axis => a[axis].abs().max(b[axis].abs()).max(c[axis].abs()));
+        let rounding = Eight::all(2e-6) * (Eight::all(frame.extent) + size[0] + size[1] + size[2]);
+        let n = frame.normal;
+        let clear = rounding.below(dot(n, &a).max(dot(n, &b)).max(dot(n, &c)));
+        let p = three!(axis => b[axis] - a[axis]);
+        let q = three!(axis => c[axis] - a[axis]);
+        let mut height = Eight::all(0.0);
+        let mut off = Eight::all(0.0);
+        for [i, j, k] in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
+            let (x, y) = (p[j] * q[k], p[k] * q[j]);
+            height = height + (x - y) * a[i];
+            off = off + (x.abs() + y.abs()) * a[i].abs();
+        }
+        // A dozen roundings of 2^-24 in each term.
+        let sure = (off * Eight::all(1e-6) + Eight::all(f32::MIN_POSITIVE)).below(height.abs());
+        let [clear, sure, behind, _] = bytes([clear, sure, height.below(Eight::all(0.0)), sure]);
+        Face { sure, behind, clear }
     }
 
     /// A bit for each triangle that there is.

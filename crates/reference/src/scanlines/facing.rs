@@ -3,7 +3,8 @@
 //! Bounds are f32 with every rounding counted; what is not sure is asked again at each receiver.
 
 use super::blocks::Block;
-use super::eight::{Eight, bytes};
+use super::eight::{Eight, Mask, bytes};
+use super::groups::Placed;
 use crate::aim::{Aim, Distance, Spread};
 use crate::rays::LIGHT_GAP;
 use crate::receiver::Receiver;
@@ -22,16 +23,17 @@ pub(super) struct Standpoint {
     /// The middle of all normals, and half of the box around them.
     normal: Vec3,
     sway: Vec3,
-    /// The highest place along `normal`, from the centre.
-    height: f32,
+    /// The lowest and the highest place along `normal`, from the centre.
+    heights: [f32; 2],
     extent: f32,
     far: Far,
 }
 
 /// Between which depths a triangle surely stands before the light.
 enum Far {
-    /// Along a direction, from the centre: above the first and below the second.
-    Plane { axis: Vec3, range: [f32; 2] },
+    /// Along a direction, from the centre: above the first and below the second. Below the third it is behind
+    /// all receivers, above the fourth behind the light.
+    Plane { axis: Vec3, range: [f32; 2], out: [f32; 2] },
     /// Towards a sphere's centre; how far the receivers are from the group's, and the most that
     /// `corner . axis` may be.
     Ball { axis: Vec3, reach: f32, most: f32 },
@@ -47,13 +49,15 @@ pub(super) struct Sure {
     /// All receivers are on one side of its plane; on which.
     pub(super) sided: u32,
     pub(super) behind: u32,
+    /// Hides nothing from any receiver.
+    pub(super) never: u32,
 }
 
 impl Standpoint {
     /// `None` where the light stands differently to different receivers.
-    pub(super) fn new(light: &AreaLight, receivers: &[Receiver]) -> Option<Self> {
+    pub(super) fn new(light: &AreaLight, receivers: &[Placed]) -> Option<Self> {
         let fold = |pick: fn(&Receiver) -> DVec3| {
-            receivers.iter().map(pick).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+            receivers.iter().map(|r| pick(&r.receiver)).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
                 (low.min(p), high.max(p))
             })
         };
@@ -66,15 +70,17 @@ impl Standpoint {
         let normal = ((low + high) * 0.5).as_vec3();
         let sway = widened((normal.as_dvec3() - low).max(high - normal.as_dvec3()));
         let reach = |axis: DVec3| {
-            let along = receivers.iter().map(|r| axis.dot(r.position - centre.as_dvec3()));
+            let along = receivers.iter().map(|r| axis.dot(r.receiver.position - centre.as_dvec3()));
             along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)])
         };
-        let middle = Receiver { position: centre.as_dvec3(), ..receivers[0] };
+        let middle = Receiver { position: centre.as_dvec3(), ..receivers[0].receiver };
         let aim = Aim::new(light, &middle)?;
         let far = match aim.spread {
             Spread::Cone { distance: Distance::Infinite, .. } => {
                 let axis = aim.axis.normalize();
-                Far::Plane { axis: axis.as_vec3(), range: [reach(axis)[1] as f32, f32::INFINITY] }
+                let [lowest, highest] = reach(axis).map(|t| t as f32);
+                let (range, out) = ([highest, f32::INFINITY], [lowest, f32::INFINITY]);
+                Far::Plane { axis: axis.as_vec3(), range, out }
             }
             Spread::Area => {
                 let axis = aim.u.cross(aim.v).try_normalize()?;
@@ -85,7 +91,8 @@ impl Standpoint {
                     return None;
                 }
                 let most = light - 2.0 * LIGHT_GAP * (light - nearest);
-                Far::Plane { axis: axis.as_vec3(), range: [farthest as f32, most as f32] }
+                let (range, out) = ([farthest as f32, most as f32], [nearest as f32, light as f32]);
+                Far::Plane { axis: axis.as_vec3(), range, out }
             }
             Spread::Cone { one_minus_cos, distance: Distance::Sphere } => {
                 let cos = 1.0 - one_minus_cos;
@@ -100,8 +107,8 @@ impl Standpoint {
                 Far::Ball { axis: aim.axis.as_vec3(), reach: reach as f32, most: most as f32 }
             }
         };
-        let height = reach(normal.as_dvec3())[1] as f32;
-        Some(Self { centre, half, normal, sway, height, extent: centre.abs().element_sum(), far })
+        let heights = reach(normal.as_dvec3()).map(|h| h as f32);
+        Some(Self { centre, half, normal, sway, heights, extent: centre.abs().element_sum(), far })
     }
 
     #[inline(always)]
@@ -113,12 +120,15 @@ impl Standpoint {
         let size = dot(one, &p).max(dot(one, &q)).max(dot(one, &r)) + Eight::all(self.extent);
         let rounding = size * Eight::all(ROUNDING);
         // Heights over every receiver's horizon.
-        let p = dot(self.normal, a) - dot(self.sway, &p);
-        let q = dot(self.normal, b) - dot(self.sway, &q);
-        let r = dot(self.normal, c) - dot(self.sway, &r);
-        let highest = p.max(q).max(r);
-        let clear = (Eight::all(self.height + self.sway.dot(self.half)) + rounding).below(highest);
-        let between = self.between(&d, rounding);
+        let (p, away) = (dot(self.normal, a), dot(self.sway, &p));
+        let (q, gone) = (dot(self.normal, b), dot(self.sway, &q));
+        let (r, off) = (dot(self.normal, c), dot(self.sway, &r));
+        let highest = (p - away).max(q - gone).max(r - off);
+        let at_most = (p + away).max(q + gone).max(r + off);
+        let ([low, high], sway) = (self.heights, self.sway.dot(self.half));
+        let clear = (Eight::all(high + sway) + rounding).below(highest);
+        let below = (at_most + rounding).below(Eight::all(low - sway));
+        let [between, out] = self.between(&d, rounding);
         // The height of the triangle's plane over the centre, times twice its area.
         let (p, q) = (sub(b, a), sub(c, a));
         let half = self.half.to_array();
@@ -135,25 +145,30 @@ impl Standpoint {
         }
         let sided = off.below(plane.abs());
         let behind = plane.below(Eight::all(0.0));
+        let never = out.or(below).bits();
         let [between, clear, sided, behind] = bytes([between, clear, sided, behind]);
-        Sure { between, clear, sided, behind }
+        Sure { between, clear, sided, behind, never }
     }
 
     #[inline(always)]
-    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> super::eight::Mask {
+    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> [Mask; 2] {
         match self.far {
-            Far::Plane { axis, range: [nearest, most] } => {
+            Far::Plane { axis, range: [nearest, most], out: [behind, beyond] } => {
                 let [a, b, c] = [dot(axis, a), dot(axis, b), dot(axis, c)];
-                let front = (Eight::all(nearest) + rounding).below(a.min(b).min(c));
-                front.and((a.max(b).max(c) + rounding).below(Eight::all(most)))
+                let (low, high) = (a.min(b).min(c) - rounding, a.max(b).max(c) + rounding);
+                let between = Eight::all(nearest).below(low).and(high.below(Eight::all(most)));
+                let out = high.below(Eight::all(behind)).or(Eight::all(beyond).below(low));
+                [between, out]
             }
             Far::Ball { axis, reach, most } => {
                 let away = length(axis, a).max(length(axis, b)).max(length(axis, c));
                 let spread = away * Eight::all(reach * (1.0 + ROUNDING))
                     + rounding * Eight::all(axis.abs().element_sum());
                 let [a, b, c] = [dot(axis, a), dot(axis, b), dot(axis, c)];
-                let front = spread.below(a.min(b).min(c));
-                front.and((a.max(b).max(c) + spread).below(Eight::all(most)))
+                let (low, high) = (a.min(b).min(c) - spread, a.max(b).max(c) + spread);
+                let (zero, most) = (Eight::all(0.0), Eight::all(most));
+                let behind = (high + Eight::all(reach * reach)).below(zero);
+                [zero.below(low).and(high.below(most)), behind]
             }
         }
     }

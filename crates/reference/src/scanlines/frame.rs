@@ -14,6 +14,7 @@ const EDGE_ON: f64 = 1e-3;
 
 /// From the world to a light: a corner (X, Y, Z) has its picture at (X / Z, Y / Z) of the aim's
 /// coordinates; Z is in lengths of the axis.
+#[derive(Clone, Copy)]
 pub(crate) struct Frame {
     /// Receiver's place, in two f32 that add up to it.
     pub(crate) place: [Vec3; 2],
@@ -87,18 +88,28 @@ impl Frame {
                 (Some(cone), depth)
             }
         };
-        let high = receiver.position.as_vec3();
-        Some(Self {
-            place: [high, (receiver.position - high.as_dvec3()).as_vec3()],
+        let mut frame = Self {
+            place: [Vec3::ZERO; 2],
             light_from_world: matrix.inverse().as_mat3(),
-            normal: receiver.normal.as_vec3(),
-            extent: high.abs().element_sum(),
+            normal: Vec3::ZERO,
+            extent: 0.0,
             axes: [aim.u, aim.v, aim.axis],
             round: aim.outline == Outline::Disk,
             flat: cone.is_none(),
             cone,
             depth,
-        })
+        };
+        frame.stand(receiver);
+        Some(frame)
+    }
+
+    /// Moves to a receiver that sees the light in the same direction.
+    #[inline(always)]
+    pub(crate) fn stand(&mut self, receiver: &Receiver) {
+        let high = receiver.position.as_vec3();
+        self.place = [high, (receiver.position - high.as_dvec3()).as_vec3()];
+        self.normal = receiver.normal.as_vec3();
+        self.extent = high.abs().element_sum();
     }
 
     /// A plane's linear form on the light.

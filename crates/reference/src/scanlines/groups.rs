@@ -2,15 +2,18 @@
 
 use super::Rulings;
 use super::blocks::{Blocks, Survey};
+use super::frame::Frame;
 use super::lines::{Lines, REPLICATES};
 use super::patches::Patches;
-use super::volume;
+use super::volume::Volume;
 use super::winding::Winding;
 use crate::Points;
+use crate::aim::Aim;
 use crate::receiver::Receiver;
 use crate::samples::LightSamples;
 use crate::truth::{Method, Scratch, Task};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
+use umbrage_scene::AreaLight;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use std::marker::PhantomData;
@@ -18,6 +21,14 @@ use std::ops::Range;
 
 /// Receivers that share a list of candidates, at most.
 const TOGETHER: usize = 64;
+
+/// A list is made shorter for each half of the receivers while they are more than this, and it has more blocks of
+/// eight triangles than that.
+const FEW: usize = 8;
+const SIMPLE: usize = 6;
+
+/// Normals that differ by more in a coordinate are told apart before places.
+const TURNED: f64 = 0.5;
 
 /// What a thread keeps from group to group.
 #[derive(Default)]
@@ -28,15 +39,48 @@ pub(super) struct Desk {
     pub(super) winding: Winding,
     /// The others.
     pub(super) blocks: Blocks,
-    all: Blocks,
+    /// Candidates of a group, of a part of it, of a part of that, ...
+    lists: Vec<Blocks>,
     /// Cut-out triangles.
     pub(super) cards: Blocks,
     /// What was hidden before one of them, per row.
     pub(super) before: Vec<[u32; REPLICATES]>,
     pub(super) surveys: Vec<(usize, Survey)>,
     open: Vec<u32>,
+    /// A sun is the same from everywhere.
+    sun: Option<(Aim, Option<Frame>)>,
     pub(super) lines: Lines,
     pub(super) samples: LightSamples,
+}
+
+impl Desk {
+    #[inline(always)]
+    pub(super) fn aim(&self, light: &AreaLight, receiver: &Receiver) -> Option<Aim> {
+        match &self.sun {
+            Some((aim, _)) => Some(*aim),
+            None => Aim::new(light, receiver),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn frame(&self, receiver: &Receiver, aim: &Aim) -> Option<Frame> {
+        match &self.sun {
+            Some((_, frame)) => {
+                let mut frame = (*frame)?;
+                frame.stand(receiver);
+                Some(frame)
+            }
+            None => Frame::new(receiver, aim),
+        }
+    }
+
+    fn new(light: &AreaLight) -> Self {
+        let sun = matches!(light, AreaLight::Sun { .. }).then(|| {
+            let anywhere = Receiver::in_air(DVec3::ZERO);
+            Aim::new(light, &anywhere).map(|aim| (aim, Frame::new(&anywhere, &aim)))
+        });
+        Self { sun: sun.flatten(), ..Self::default() }
+    }
 }
 
 /// Something that is found at each receiver.
@@ -60,7 +104,7 @@ pub(super) fn find<F: Find>(task: &Task, points: &Points, none: F::Found) -> Vec
     let (order, groups) = neighbours(points);
     let found: Vec<Vec<F::Found>> = groups
         .into_par_iter()
-        .map_init(Desk::default, |desk, range| {
+        .map_init(|| Desk::new(task.light), |desk, range| {
             let group =
                 Group::<F> { task, rulings: &rulings, points, order: &order[range], desk, find: PhantomData };
             Arch::new().dispatch(group)
@@ -90,25 +134,79 @@ impl<F: Find> WithSimd for Group<'_, F> {
     fn with_simd<S: Simd>(self, _: S) -> Vec<F::Found> {
         let Self { task, rulings, points, order, desk, .. } = self;
         let surfaces = &task.tracer.surfaces;
-        let receivers: Vec<Receiver> =
-            order.iter().map(|&i| Receiver::new(surfaces, points, i as usize)).collect();
-        if task.settings.method != Method::ScanlineRays {
-            volume::gather(
-                surfaces,
-                task.light,
-                &receivers,
-                (&mut desk.open, &mut desk.all, &mut desk.cards),
-            );
-            desk.patches.sort(surfaces, task.light, &receivers, (&desk.all, &mut desk.blocks));
-            desk.blocks.close();
+        let mut receivers: Vec<Placed> = Vec::with_capacity(order.len());
+        for (at, &index) in order.iter().enumerate() {
+            let last = receivers.last().map(|placed| &placed.receiver);
+            let receiver = Receiver::beside(last, surfaces, points, index as usize);
+            receivers.push(Placed { receiver, index, at: at as u32 });
         }
+        let mut found: Vec<Option<F::Found>> = vec![None; order.len()];
         let mut last = 0;
-        let mut found = Vec::with_capacity(order.len());
-        for (receiver, &index) in receivers.iter().zip(order) {
-            found.push(F::find(task, rulings, (receiver, points, index as usize), desk, &mut last));
+        if task.settings.method == Method::ScanlineRays {
+            for placed in &receivers {
+                let point = (&placed.receiver, points, placed.index as usize);
+                found[placed.at as usize] = Some(F::find(task, rulings, point, desk, &mut last));
+            }
+            return found.into_iter().flatten().collect();
         }
-        found
+        // Depth first: the list of a part is on the desk until both of its halves are done.
+        let mut parts = vec![(0..receivers.len(), 0)];
+        while let Some((range, depth)) = parts.pop() {
+            let part = &mut receivers[range.clone()];
+            let volume = Volume::new(task.light, part, f64::from(surfaces.extent));
+            if desk.lists.len() <= depth {
+                desk.lists.resize_with(depth + 1, Blocks::default);
+            }
+            if depth == 0 {
+                volume.gather(surfaces, (&mut desk.open, &mut desk.lists[0], &mut desk.cards));
+            } else if let [.., from, into] = &mut desk.lists[..=depth] {
+                volume.filter(from, into);
+            }
+            let candidates = desk.lists[depth].blocks.len();
+            if part.len() > FEW && candidates > SIMPLE {
+                let middle = range.start + halve(part);
+                if range.contains(&middle) && middle > range.start {
+                    parts.push((middle..range.end, depth + 1));
+                    parts.push((range.start..middle, depth + 1));
+                    continue;
+                }
+            }
+            desk.patches.sort(surfaces, task.light, part, (&desk.lists[depth], &mut desk.blocks));
+            desk.blocks.close();
+            last = 0;
+            for placed in &receivers[range] {
+                let point = (&placed.receiver, points, placed.index as usize);
+                found[placed.at as usize] = Some(F::find(task, rulings, point, desk, &mut last));
+            }
+        }
+        found.into_iter().flatten().collect()
     }
+}
+
+/// A receiver of a group, its point, and where it stands in the group's order.
+#[derive(Clone, Copy)]
+pub(super) struct Placed {
+    pub(super) receiver: Receiver,
+    index: u32,
+    at: u32,
+}
+
+/// Puts receivers of one kind before those of another: by their normals if those differ most, otherwise by their
+/// places. Returns where the second kind starts.
+fn halve(part: &mut [Placed]) -> usize {
+    let spread = |pick: fn(&Receiver) -> DVec3| {
+        let each = || part.iter().map(|placed| pick(&placed.receiver));
+        let low = each().fold(DVec3::INFINITY, DVec3::min);
+        (low, each().fold(DVec3::NEG_INFINITY, DVec3::max))
+    };
+    let normals = spread(|r| r.normal);
+    let turned = (normals.1 - normals.0).max_element() > TURNED;
+    let (pick, (low, high)): (fn(&Receiver) -> DVec3, _) =
+        if turned { (|r| r.normal, normals) } else { (|r| r.position, spread(|r| r.position)) };
+    let axis = (high - low).max_position();
+    let middle = 0.5 * (low[axis] + high[axis]);
+    part.sort_by_key(|placed| pick(&placed.receiver)[axis] > middle);
+    part.partition_point(|placed| pick(&placed.receiver)[axis] <= middle)
 }
 
 /// The points in an order in which neighbours stand together, and that order cut into groups.

@@ -23,7 +23,7 @@ mod winding;
 
 use crate::Points;
 use crate::TruthSettings;
-use crate::aim::{Aim, Elevation};
+use crate::aim::Elevation;
 use crate::irradiance::Emitter;
 use crate::owen::mix;
 use crate::receiver::Receiver;
@@ -87,14 +87,14 @@ impl Find for Looking {
         desk: &mut Desk,
         last: &mut usize,
     ) -> PointTruth {
-        let Some(aim) = Aim::new(task.light, receiver) else { return PointTruth::exact(1.0, false) };
+        let Some(aim) = desk.aim(task.light, receiver) else { return PointTruth::exact(1.0, false) };
         let elevation = aim.elevation(receiver.normal);
         let facing = elevation == Elevation::Above;
         if elevation == Elevation::Below {
             return PointTruth::exact(0.0, false);
         }
         let seed = seed(task.seed, points.position[index]);
-        let Some(frame) = Frame::new(receiver, &aim) else {
+        let Some(frame) = desk.frame(receiver, &aim) else {
             // A light without a size, or seen edge-on: the samples of the other ways.
             return task.point(points, index, &mut desk.scratch);
         };
@@ -125,11 +125,11 @@ impl Find for Weighing {
         desk: &mut Desk,
         last: &mut usize,
     ) -> [f32; 3] {
-        let Some(aim) = Aim::new(task.light, receiver) else { return [0.0; 3] };
+        let Some(aim) = desk.aim(task.light, receiver) else { return [0.0; 3] };
         if aim.elevation(receiver.normal) == Elevation::Below {
             return [0.0; 3];
         }
-        let Some(frame) = Frame::new(receiver, &aim) else {
+        let Some(frame) = desk.frame(receiver, &aim) else {
             return task.irradiance(points, index, &mut desk.scratch);
         };
         let ruling = &rulings.mean;

@@ -6,11 +6,12 @@
 //! are silhouettes and borders (as in soft shadow volumes, Laine et al. 2005, section 3), and a wall of ten
 //! thousand triangles is as simple as its outline.
 
-use super::blocks::Blocks;
+use super::blocks::{Block, Blocks};
 use super::edges::{Edges, Seen};
 use super::eight::LANES;
 use super::facing::Standpoint;
 use super::frame::Frame;
+use super::groups::Placed;
 use crate::receiver::Receiver;
 use crate::surfaces::Surfaces;
 use glam::Vec3;
@@ -25,7 +26,9 @@ pub(super) struct Patches {
     edges: Vec<Edges>,
     filled: usize,
     /// Triangles whose side depends on the receiver: an owner each, after the patches.
-    open: Vec<Open>,
+    open: Blocks,
+    /// A bit for each open triangle of a block that is surely above all receivers' horizons.
+    clear: Vec<u32>,
     patches: usize,
     /// Of each owner: 1, or what an open one is to the receiver: 1, -1, or 0 where it does not count.
     sides: Vec<i8>,
@@ -38,14 +41,6 @@ pub(super) struct Patches {
     /// What a receiver sees of the edges.
     pub(super) seen: Vec<Seen>,
     work: Work,
-}
-
-#[derive(Clone, Copy)]
-struct Open {
-    slot: u32,
-    corners: [Vec3; 3],
-    /// Whether it is surely above all receivers' horizons.
-    clear: bool,
 }
 
 /// What is known of one candidate.
@@ -92,12 +87,13 @@ impl Patches {
         &mut self,
         surfaces: &Surfaces,
         light: &AreaLight,
-        receivers: &[Receiver],
+        receivers: &[Placed],
         (all, rest): (&Blocks, &mut Blocks),
     ) {
         self.edges.clear();
         self.filled = 0;
         self.open.clear();
+        self.clear.clear();
         self.shade = None;
         self.work.candidates.clear();
         rest.clear();
@@ -112,6 +108,9 @@ impl Patches {
         for block in &all.blocks {
             let sure = standpoint.sure(block);
             for lane in 0..block.used().count_ones() as usize {
+                if sure.never >> lane & 1 != 0 {
+                    continue;
+                }
                 let (slot, corners) = (block.slots[lane], block.triangle(lane));
                 if sure.between >> lane & 1 == 0 {
                     rest.push(slot, &corners);
@@ -148,13 +147,21 @@ impl Patches {
             self.work.candidates[i].owner = self.work.candidates[root].owner;
         }
         self.patches = patches as usize;
+        let mut open = 0;
         for candidate in self.work.candidates.iter_mut().filter(|c| c.side == 0) {
-            candidate.owner = patches + self.open.len() as u32;
-            let Candidate { slot, corners, clear, .. } = *candidate;
-            self.open.push(Open { slot, corners, clear });
+            candidate.owner = patches + open;
+            self.open.push(candidate.slot, &candidate.corners);
+            let lane = open as usize % LANES;
+            if lane == 0 {
+                self.clear.push(0);
+            }
+            if let Some(last) = self.clear.last_mut() {
+                *last |= u32::from(candidate.clear) << lane;
+            }
+            open += 1;
         }
         self.sides.clear();
-        self.sides.resize(self.patches + self.open.len(), 1);
+        self.sides.resize(self.patches + self.open.blocks.len() * LANES, 1);
     }
 
     fn keep_edges(&mut self) {
@@ -197,8 +204,19 @@ impl Patches {
                 return Past::Hidden;
             }
         }
-        for (open, side) in self.open.iter().zip(&mut self.sides[self.patches..]) {
-            *side = open.side(receiver);
+        let sides = self.sides[self.patches..].as_chunks_mut::<LANES>().0;
+        for ((block, &clear), sides) in self.open.blocks.iter().zip(&self.clear).zip(sides) {
+            let faces = block.face(frame);
+            let sure = faces.sure & (faces.clear | clear);
+            for lane in 0..LANES {
+                sides[lane] = 1 - 2 * (faces.behind >> lane & 1) as i8;
+            }
+            let mut unsure = !sure & block.used();
+            while unsure != 0 {
+                let lane = unsure.trailing_zeros() as usize;
+                unsure &= unsure - 1;
+                sides[lane] = side(receiver, block, lane);
+            }
         }
         self.layers.clear();
         self.layers.resize(self.sides.len(), 0);
@@ -289,15 +307,15 @@ fn balance(seen: &Seen, sides: &[i8; LANES]) -> i32 {
     layers
 }
 
-impl Open {
-    fn side(&self, receiver: &Receiver) -> i8 {
-        if !self.clear && receiver.skips(self.slot, &self.corners) {
-            return 0;
-        }
-        let [a, b, c] = self.corners.map(Vec3::as_dvec3);
-        let height: f64 = (b - a).cross(c - a).dot(a - receiver.position);
-        i8::from(height > 0.0) - i8::from(height < 0.0)
+/// On which side of an open triangle a receiver is, or 0 where it does not count.
+fn side(receiver: &Receiver, block: &Block, lane: usize) -> i8 {
+    let corners = block.triangle(lane);
+    if receiver.skips(block.slots[lane], &corners) {
+        return 0;
     }
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let height: f64 = (b - a).cross(c - a).dot(a - receiver.position);
+    i8::from(height > 0.0) - i8::from(height < 0.0)
 }
 
 impl Work {

@@ -1,6 +1,8 @@
 //! Everything between a group of receivers and the light: one walk of the tree for all of them.
 
 use super::blocks::Blocks;
+use super::eight::Eight;
+use super::groups::Placed;
 use crate::aim::Aim;
 use crate::receiver::Receiver;
 use crate::surfaces::Surfaces;
@@ -12,53 +14,33 @@ use umbrage_scene::AreaLight;
 const ROUNDING: f64 = 16.0 / (1 << 24) as f64;
 
 /// Half-spaces that hold the convex hull of the receivers and the light, and its bounding box.
-struct Volume {
-    planes: Vec<(Vec3A, f32)>,
+pub(super) struct Volume {
+    /// Normals turned inwards, without their signs, and heights of up to eight planes; the others hold all.
+    normals: [Eight; 3],
+    sizes: [Eight; 3],
+    heights: Eight,
+    planes: usize,
     low: Vec3A,
     high: Vec3A,
 }
 
-/// Lists the triangles that may hide a part of the light from any of the receivers; cut-out ones apart.
-pub(super) fn gather(
-    surfaces: &Surfaces,
-    light: &AreaLight,
-    receivers: &[Receiver],
-    (open, blocks, cards): (&mut Vec<u32>, &mut Blocks, &mut Blocks),
-) {
-    blocks.clear();
-    cards.clear();
-    open.clear();
-    let volume = Volume::new(light, receivers, f64::from(surfaces.extent));
-    open.push(0);
-    while let Some(index) = open.pop() {
-        let node = &surfaces.bvh.nodes[index as usize];
-        if !volume.touches(node.aabb()) {
-            continue;
-        }
-        let first = node.first_index;
-        if !node.is_leaf() {
-            open.extend([first, first + 1]);
-            continue;
-        }
-        for slot in first..first + node.prim_count {
-            let corners = surfaces.corners[slot as usize];
-            if !volume.misses(&corners) {
-                if surfaces.is_cut(slot) { &mut *cards } else { &mut *blocks }.push(slot, &corners);
-            }
-        }
-    }
-    cards.close();
-}
-
 impl Volume {
-    fn new(light: &AreaLight, receivers: &[Receiver], extent: f64) -> Self {
-        let places = || receivers.iter().map(|r| r.position);
+    pub(super) fn new(light: &AreaLight, receivers: &[Placed], extent: f64) -> Self {
+        let places = || receivers.iter().map(|r| r.receiver.position);
         let (low, high) =
             places().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
-        let middle = Receiver { position: (low + high) * 0.5, ..receivers[0] };
+        let middle = Receiver { position: (low + high) * 0.5, ..receivers[0].receiver };
         let slack = ROUNDING * (extent + low.abs().max(high.abs()).max_element());
         let far = far_end(light);
-        let mut volume = Self { planes: Vec::with_capacity(5), low: Vec3A::ZERO, high: Vec3A::ZERO };
+        let none = [Eight::all(0.0); 3];
+        let mut volume = Self {
+            normals: none,
+            sizes: none,
+            heights: Eight::all(f32::NEG_INFINITY),
+            planes: 0,
+            low: Vec3A::ZERO,
+            high: Vec3A::ZERO,
+        };
         // Inside a sphere light there is no aim, and no candidate either way: keep everything.
         if let Some(aim) = Aim::new(light, &middle) {
             for normal in sides(&aim) {
@@ -66,8 +48,8 @@ impl Volume {
                 volume.plane(normal, lowest.min(far.lowest(normal)) - slack);
             }
         }
-        let normal = receivers[0].normal;
-        if normal != DVec3::ZERO && receivers.iter().all(|r| r.normal == normal) {
+        let normal = receivers[0].receiver.normal;
+        if normal != DVec3::ZERO && receivers.iter().all(|r| r.receiver.normal == normal) {
             let lowest = places().map(|p| normal.dot(p)).fold(f64::INFINITY, f64::min);
             volume.plane(normal, lowest - slack);
         }
@@ -77,21 +59,84 @@ impl Volume {
         volume
     }
 
-    fn plane(&mut self, normal: DVec3, offset: f64) {
-        self.planes.push((normal.as_vec3a(), offset as f32));
+    /// Lists the triangles that may hide a part of the light from any of the receivers; cut-out ones apart.
+    #[inline(always)]
+    pub(super) fn gather(
+        &self,
+        surfaces: &Surfaces,
+        (open, blocks, cards): (&mut Vec<u32>, &mut Blocks, &mut Blocks),
+    ) {
+        blocks.clear();
+        cards.clear();
+        open.clear();
+        open.push(0);
+        while let Some(index) = open.pop() {
+            let node = &surfaces.bvh.nodes[index as usize];
+            if !self.touches(node.aabb()) {
+                continue;
+            }
+            let first = node.first_index;
+            if !node.is_leaf() {
+                open.extend([first, first + 1]);
+                continue;
+            }
+            for slot in first..first + node.prim_count {
+                let corners = surfaces.corners[slot as usize];
+                if !self.misses(&corners) {
+                    if surfaces.is_cut(slot) { &mut *cards } else { &mut *blocks }.push(slot, &corners);
+                }
+            }
+        }
+        cards.close();
     }
 
+    /// Lists those of a list.
+    #[inline(always)]
+    pub(super) fn filter(&self, from: &Blocks, into: &mut Blocks) {
+        into.clear();
+        for block in &from.blocks {
+            for lane in 0..block.used().count_ones() as usize {
+                let corners = block.triangle(lane);
+                if !self.misses(&corners) {
+                    into.push(block.slots[lane], &corners);
+                }
+            }
+        }
+    }
+
+    fn plane(&mut self, normal: DVec3, height: f64) {
+        let normal = normal.as_vec3().to_array();
+        for axis in 0..3 {
+            self.normals[axis].0[self.planes] = normal[axis];
+            self.sizes[axis].0[self.planes] = normal[axis].abs();
+        }
+        self.heights.0[self.planes] = height as f32;
+        self.planes += 1;
+    }
+
+    #[inline(always)]
     fn touches(&self, bounds: &Aabb) -> bool {
         if (bounds.min.cmpgt(self.high) | bounds.max.cmplt(self.low)).any() {
             return false;
         }
-        let (centre, half) = ((bounds.min + bounds.max) * 0.5, (bounds.max - bounds.min) * 0.5);
-        self.planes.iter().all(|(normal, offset)| normal.dot(centre) + normal.abs().dot(half) >= *offset)
+        let centre = ((bounds.min + bounds.max) * 0.5).to_array();
+        let half = ((bounds.max - bounds.min) * 0.5).to_array();
+        let highest = self.along(&self.normals, centre) + self.along(&self.sizes, half);
+        highest.below(self.heights).bits() == 0
     }
 
+    #[inline(always)]
     fn misses(&self, corners: &[Vec3; 3]) -> bool {
-        let corners = corners.map(Vec3A::from);
-        self.planes.iter().any(|(normal, offset)| corners.iter().all(|v| normal.dot(*v) < *offset))
+        let [a, b, c] = corners;
+        let highest = self.along(&self.normals, a.to_array());
+        let highest = highest.max(self.along(&self.normals, b.to_array()));
+        let highest = highest.max(self.along(&self.normals, c.to_array()));
+        highest.below(self.heights).bits() != 0
+    }
+
+    #[inline(always)]
+    fn along(&self, normals: &[Eight; 3], place: [f32; 3]) -> Eight {
+        normals[0] * Eight::all(place[0]) + normals[1] * Eight::all(place[1]) + normals[2] * Eight::all(place[2])
     }
 }
 
