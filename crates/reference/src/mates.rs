@@ -6,12 +6,18 @@ use rayon::prelude::*;
 /// No other side lies there.
 const ALONE: u32 = u32::MAX;
 
-/// Sides that fit into an index; larger scenes have no mates, which costs time and changes nothing.
-const MOST_SIDES: usize = ALONE as usize;
-
 /// For each side of each triangle, one side of another triangle between the same two places. Side k goes from corner
 /// k to the next. Where more than two meet at an edge they are taken in pairs, those of opposite directions first.
+/// Twice the other's slot, and 1 if it goes the other way.
 pub(crate) struct Mates(Vec<[u32; 3]>);
+
+/// A side of another triangle.
+#[derive(Clone, Copy)]
+pub(crate) struct Mate {
+    pub(crate) slot: u32,
+    /// Whether it goes the other way, as between neighbours with the same winding.
+    pub(crate) opposite: bool,
+}
 
 /// A side in the list of those that start at the same place: where it ends, and 3 slot + k.
 #[derive(Clone, Copy)]
@@ -24,7 +30,8 @@ impl Mates {
     /// Of triangles by their vertices; vertices at one place are one.
     pub(crate) fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         let mut mates = vec![[ALONE; 3]; triangles.len()];
-        if triangles.len() >= MOST_SIDES / 3 {
+        // More do not fit; without mates all is slower and the same.
+        if 3 * triangles.len() >= ALONE as usize {
             return Self(mates);
         }
         let place = places(positions);
@@ -54,9 +61,9 @@ impl Mates {
             let [from, to] = side(index as usize / 3, index as usize % 3);
             from < to
         };
-        let mut pair = |a: u32, b: u32| {
-            mates[a as usize / 3][a as usize % 3] = b;
-            mates[b as usize / 3][b as usize % 3] = a;
+        let mut pair = |a: u32, b: u32, opposite: bool| {
+            mates[a as usize / 3][a as usize % 3] = b / 3 << 1 | u32::from(opposite);
+            mates[b as usize / 3][b as usize % 3] = a / 3 << 1 | u32::from(opposite);
         };
         for range in start.windows(2) {
             let list = &mut entries[range[0] as usize..range[1] as usize];
@@ -66,23 +73,23 @@ impl Mates {
                 for entry in edge {
                     let rises = rises(entry.side);
                     match waiting[usize::from(!rises)].pop() {
-                        Some(other) => pair(other, entry.side),
+                        Some(other) => pair(other, entry.side, true),
                         None => waiting[usize::from(rises)].push(entry.side),
                     }
                 }
                 for same in waiting {
-                    same.as_chunks::<2>().0.iter().for_each(|&[a, b]| pair(a, b));
+                    same.as_chunks::<2>().0.iter().for_each(|&[a, b]| pair(a, b, false));
                 }
             }
         }
         Self(mates)
     }
 
-    /// The slot of the triangle and its side that lie on side k of this one.
+    /// What lies on side k of a triangle.
     #[inline(always)]
-    pub(crate) fn of(&self, slot: u32, k: usize) -> Option<(u32, usize)> {
-        let side = self.0[slot as usize][k];
-        (side != ALONE).then_some((side / 3, (side % 3) as usize))
+    pub(crate) fn of(&self, slot: u32, k: usize) -> Option<Mate> {
+        let mate = self.0[slot as usize][k];
+        (mate != ALONE).then_some(Mate { slot: mate >> 1, opposite: mate & 1 != 0 })
     }
 }
 

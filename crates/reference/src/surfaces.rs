@@ -120,6 +120,15 @@ impl Surfaces {
             .is_some_and(|(t, along)| t > line.range[0] && t < line.range[1] && self.is_there(slot, along))
     }
 
+    /// Names every surface that crosses a line.
+    pub(crate) fn crossing(&self, line: &Line, mut tell: impl FnMut(u32)) {
+        self.bvh.ray_traverse_anyhit(line.boxes(), |_, slot| {
+            if self.crosses(line, slot as u32) {
+                tell(slot as u32);
+            }
+        });
+    }
+
     /// Whether any surface but the skipped ones crosses a line.
     pub(crate) fn blocked(&self, line: &Line, skip: impl Fn(u32, &[Vec3; 3]) -> bool) -> bool {
         !self.bvh.ray_traverse_miss(line.boxes(), |_, slot| {

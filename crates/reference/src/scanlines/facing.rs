@@ -111,6 +111,28 @@ impl Standpoint {
         Some(Self { centre, half, normal, sway, heights, extent: centre.abs().element_sum(), far })
     }
 
+    /// At a light whose points are the same from everywhere: not at a sphere, of which each receiver sees other parts.
+    pub(super) fn aim(&self, light: &AreaLight) -> Option<Aim> {
+        match light {
+            AreaLight::Sphere { .. } => None,
+            _ => Aim::new(light, &Receiver::in_air(self.centre.as_dvec3())),
+        }
+    }
+
+    pub(super) fn centre(&self) -> Vec3 {
+        self.centre
+    }
+
+    /// Of a box around all places.
+    pub(super) fn corners(&self) -> [Vec3; 8] {
+        let ulps = Vec3::splat(1.2e-7) * (self.centre.abs() + self.half);
+        let half = self.half + ulps;
+        std::array::from_fn(|i| {
+            let sign = |axis: usize| if i >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            self.centre + half * Vec3::new(sign(0), sign(1), sign(2))
+        })
+    }
+
     #[inline(always)]
     pub(super) fn sure(&self, block: &Block) -> Sure {
         let c = self.centre;

@@ -4,7 +4,9 @@ use super::Rulings;
 use super::blocks::{Blocks, Survey};
 use super::frame::Frame;
 use super::lines::{Lines, REPLICATES};
+use super::facing::Standpoint;
 use super::patches::Patches;
+use super::shade::Shade;
 use super::volume::Volume;
 use super::winding::Winding;
 use crate::Points;
@@ -35,6 +37,7 @@ const TURNED: f64 = 0.5;
 pub(super) struct Desk {
     pub(super) scratch: Scratch,
     /// Triangles that are sure to be between, as edges.
+    pub(super) shade: Shade,
     pub(super) patches: Patches,
     pub(super) winding: Winding,
     /// The others.
@@ -86,6 +89,9 @@ impl Desk {
 /// Something that is found at each receiver.
 pub(super) trait Find {
     type Found: Copy + Send;
+
+    /// What is found where all of the light is hidden, if that can be told without its samples.
+    const HIDDEN: Option<fn(&Task, &Receiver, &Desk) -> Self::Found> = None;
 
     /// At one receiver, of whose group the candidates are on the desk. `last` is the block that hid the light
     /// from the neighbour.
@@ -153,6 +159,16 @@ impl<F: Find> WithSimd for Group<'_, F> {
         let mut parts = vec![(0..receivers.len(), 0)];
         while let Some((range, depth)) = parts.pop() {
             let part = &mut receivers[range.clone()];
+            let standpoint = Standpoint::new(task.light, part);
+            if let (Some(standpoint), Some(hidden)) = (&standpoint, F::HIDDEN)
+                && let Some(aim) = standpoint.aim(task.light)
+                && desk.shade.hides(surfaces, standpoint, &aim)
+            {
+                for placed in &receivers[range] {
+                    found[placed.at as usize] = Some(hidden(task, &placed.receiver, desk));
+                }
+                continue;
+            }
             let volume = Volume::new(task.light, part, f64::from(surfaces.extent));
             if desk.lists.len() <= depth {
                 desk.lists.resize_with(depth + 1, Blocks::default);
@@ -171,7 +187,7 @@ impl<F: Find> WithSimd for Group<'_, F> {
                     continue;
                 }
             }
-            desk.patches.sort(surfaces, task.light, part, (&desk.lists[depth], &mut desk.blocks));
+            desk.patches.sort(surfaces, standpoint.as_ref(), (&desk.lists[depth], &mut desk.blocks));
             desk.blocks.close();
             last = 0;
             for placed in &receivers[range] {

@@ -16,6 +16,7 @@ mod lines;
 mod look;
 mod outline;
 mod patches;
+mod shade;
 mod veil;
 mod volume;
 mod weights;
@@ -78,6 +79,11 @@ struct Weighing;
 
 impl Find for Looking {
     type Found = PointTruth;
+
+    const HIDDEN: Option<fn(&Task, &Receiver, &Desk) -> PointTruth> = Some(|task, receiver, desk| {
+        let elevation = desk.aim(task.light, receiver).map(|aim| aim.elevation(receiver.normal));
+        PointTruth::exact(0.0, elevation == Some(Elevation::Above))
+    });
 
     #[inline(always)]
     fn find(

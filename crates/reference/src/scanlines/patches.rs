@@ -11,11 +11,9 @@ use super::edges::{Edges, Seen};
 use super::eight::LANES;
 use super::facing::Standpoint;
 use super::frame::Frame;
-use super::groups::Placed;
 use crate::receiver::Receiver;
 use crate::surfaces::Surfaces;
 use glam::Vec3;
-use umbrage_scene::AreaLight;
 
 /// A triangle without edges here.
 const NOWHERE: u32 = u32::MAX;
@@ -59,8 +57,8 @@ struct Candidate {
 #[derive(Default)]
 struct Work {
     candidates: Vec<Candidate>,
-    /// From slots to candidates, open addressing.
-    table: Vec<u32>,
+    /// Slots and their candidates, open addressing.
+    table: Vec<(u32, u32)>,
     /// Candidate, its side, and the candidate beyond.
     kept: Vec<(u32, u32, u32)>,
 }
@@ -86,8 +84,7 @@ impl Patches {
     pub(super) fn sort(
         &mut self,
         surfaces: &Surfaces,
-        light: &AreaLight,
-        receivers: &[Placed],
+        standpoint: Option<&Standpoint>,
         (all, rest): (&Blocks, &mut Blocks),
     ) {
         self.edges.clear();
@@ -97,7 +94,7 @@ impl Patches {
         self.shade = None;
         self.work.candidates.clear();
         rest.clear();
-        let Some(standpoint) = Standpoint::new(light, receivers) else {
+        let Some(standpoint) = standpoint else {
             for block in &all.blocks {
                 for lane in 0..block.used().count_ones() as usize {
                     rest.push(block.slots[lane], &block.triangle(lane));
@@ -322,13 +319,13 @@ impl Work {
     fn index(&mut self) {
         let size = (2 * self.candidates.len()).next_power_of_two();
         self.table.clear();
-        self.table.resize(size, NOWHERE);
+        self.table.resize(size, (NOWHERE, 0));
         for (i, candidate) in self.candidates.iter().enumerate() {
             let mut at = spot(candidate.slot, size);
-            while self.table[at] != NOWHERE {
+            while self.table[at].0 != NOWHERE {
                 at = (at + 1) & (size - 1);
             }
-            self.table[at] = i as u32;
+            self.table[at] = (candidate.slot, i as u32);
         }
     }
 
@@ -336,34 +333,33 @@ impl Work {
     fn find(&self, slot: u32) -> Option<usize> {
         let size = self.table.len();
         let mut at = spot(slot, size);
-        while self.table[at] != NOWHERE {
-            let candidate = self.table[at] as usize;
-            if self.candidates[candidate].slot == slot {
-                return Some(candidate);
+        loop {
+            match self.table[at] {
+                (found, candidate) if found == slot => return Some(candidate as usize),
+                (NOWHERE, _) => return None,
+                _ => at = (at + 1) & (size - 1),
             }
-            at = (at + 1) & (size - 1);
         }
-        None
     }
 
     /// Makes patches of neighbours whose common edge changes nothing, and keeps all other edges.
     fn join(&mut self, surfaces: &Surfaces) {
         self.kept.clear();
         for i in 0..self.candidates.len() {
-            let one = self.candidates[i];
+            let Candidate { slot, side, .. } = self.candidates[i];
             for k in 0..3 {
-                let mate = surfaces.mates.of(one.slot, k).and_then(|(slot, side)| Some((self.find(slot)?, side)));
-                let Some((beyond, side)) = mate else {
+                let mate = surfaces.mates.of(slot, k);
+                let Some((mate, beyond)) = mate.and_then(|mate| Some((mate, self.find(mate.slot)?))) else {
                     self.kept.push((i as u32, k as u32, NOWHERE));
                     continue;
                 };
                 if beyond <= i {
                     continue;
                 }
-                let other = self.candidates[beyond];
-                let reverse = one.corners[k] == other.corners[(side + 1) % 3];
+                let other = &self.candidates[beyond];
+                let reverse = mate.opposite;
                 let sides = if reverse { -other.side } else { other.side };
-                if one.side != 0 && other.side != 0 && one.side + sides == 0 {
+                if side != 0 && other.side != 0 && side + sides == 0 {
                     let (a, b) = (self.root(i as u32), self.root(beyond as u32));
                     self.candidates[a.max(b) as usize].parent = a.min(b);
                 } else {
