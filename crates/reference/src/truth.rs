@@ -168,14 +168,14 @@ impl Tracer {
 impl GroundTruth {
     /// Of points that all have so many samples.
     pub(crate) fn of(each: &[PointTruth], settings: &TruthSettings, samples: u32) -> Self {
-        let list = |pick: fn(&PointTruth) -> f32| each.iter().map(pick).collect::<Vec<f32>>();
+        let list = |pick: fn(&PointTruth) -> f32| each.par_iter().map(pick).collect::<Vec<f32>>();
         Self {
             mean: list(|p| p.mean),
             halves: [list(|p| p.halves[0]), list(|p| p.halves[1])],
             basis: if settings.basis_samples > 0 { list(|p| p.basis) } else { Vec::new() },
             variance: list(|p| p.variance),
             samples: vec![samples; each.len()],
-            facing: each.iter().map(|p| p.facing).collect(),
+            facing: each.par_iter().map(|p| p.facing).collect(),
         }
     }
 }
@@ -284,7 +284,7 @@ impl<'a> Task<'a> {
 }
 
 impl PointTruth {
-    pub(crate) fn exact(value: f32, facing: bool) -> Self {
+    pub(crate) const fn exact(value: f32, facing: bool) -> Self {
         Self { halves: [value; 2], basis: value, mean: value, variance: 0.0, facing }
     }
 }

@@ -7,7 +7,7 @@ use super::eight::{Eight, Mask, bytes};
 use super::groups::Placed;
 use crate::aim::{Aim, Distance, Spread};
 use crate::rays::LIGHT_GAP;
-use crate::receiver::Receiver;
+use crate::receiver::{COPLANAR, Receiver};
 use glam::{DVec3, Vec3};
 use umbrage_scene::AreaLight;
 
@@ -27,6 +27,8 @@ pub(super) struct Standpoint {
     heights: [f32; 2],
     extent: f32,
     far: Far,
+    /// The normal that all share, if they do, and the lowest place along it.
+    shared: Option<(DVec3, f64)>,
 }
 
 /// Between which depths a triangle surely stands before the light.
@@ -57,9 +59,10 @@ impl Standpoint {
     /// `None` where the light stands differently to different receivers.
     pub(super) fn new(light: &AreaLight, receivers: &[Placed]) -> Option<Self> {
         let fold = |pick: fn(&Receiver) -> DVec3| {
-            receivers.iter().map(|r| pick(&r.receiver)).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
-                (low.min(p), high.max(p))
-            })
+            receivers
+                .iter()
+                .map(|r| pick(&r.receiver))
+                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
         };
         let (low, high) = fold(|r| r.position);
         let centre = ((low + high) * 0.5).as_vec3();
@@ -108,7 +111,12 @@ impl Standpoint {
             }
         };
         let heights = reach(normal.as_dvec3()).map(|h| h as f32);
-        Some(Self { centre, half, normal, sway, heights, extent: centre.abs().element_sum(), far })
+        let own = receivers[0].receiver.normal;
+        let shared = (low == high && own != DVec3::ZERO).then(|| {
+            let heights = receivers.iter().map(|r| own.dot(r.receiver.position));
+            (own, heights.fold(f64::INFINITY, f64::min))
+        });
+        Some(Self { shared, centre, half, normal, sway, heights, extent: centre.abs().element_sum(), far })
     }
 
     /// At a light whose points are the same from everywhere: not at a sphere, of which each receiver sees other parts.
@@ -130,6 +138,18 @@ impl Standpoint {
         std::array::from_fn(|i| {
             let sign = |axis: usize| if i >> axis & 1 == 0 { -1.0 } else { 1.0 };
             self.centre + half * Vec3::new(sign(0), sign(1), sign(2))
+        })
+    }
+
+    /// Whether a triangle is in the plane of all receivers, or below it, as `Receiver::skips` would say at each.
+    pub(super) fn skips(&self, corners: &[Vec3; 3]) -> bool {
+        self.shared.is_some_and(|(normal, lowest)| {
+            corners.iter().all(|corner| {
+                let corner = corner.as_dvec3();
+                // Half of what every receiver allows: the rest is for f64's own rounding.
+                let rounding = 0.5 * COPLANAR * normal.abs().dot(corner.abs());
+                normal.dot(corner) - lowest <= rounding
+            })
         })
     }
 

@@ -2,24 +2,24 @@
 
 use super::Rulings;
 use super::blocks::{Blocks, Survey};
+use super::facing::Standpoint;
 use super::frame::Frame;
 use super::lines::{Lines, REPLICATES};
-use super::facing::Standpoint;
 use super::patches::Patches;
 use super::shade::Shade;
 use super::volume::Volume;
 use super::winding::Winding;
 use crate::Points;
-use crate::aim::Aim;
+use crate::aim::{Aim, Elevation};
 use crate::receiver::Receiver;
 use crate::samples::LightSamples;
 use crate::truth::{Method, Scratch, Task};
 use glam::{DVec3, Vec3};
-use umbrage_scene::AreaLight;
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
-use std::marker::PhantomData;
 use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use umbrage_scene::AreaLight;
 
 /// Receivers that share a list of candidates, at most.
 const TOGETHER: usize = 64;
@@ -88,7 +88,10 @@ impl Desk {
 
 /// Something that is found at each receiver.
 pub(super) trait Find {
-    type Found: Copy + Send;
+    type Found: Copy + Send + Sync;
+
+    /// What is found where the whole light is below the horizon.
+    const BELOW: Self::Found;
 
     /// What is found where all of the light is hidden, if that can be told without its samples.
     const HIDDEN: Option<fn(&Task, &Receiver, &Desk) -> Self::Found> = None;
@@ -108,94 +111,103 @@ pub(super) trait Find {
 pub(super) fn find<F: Find>(task: &Task, points: &Points, none: F::Found) -> Vec<F::Found> {
     let rulings = Rulings::new(task.settings, task.light);
     let (order, groups) = neighbours(points);
-    let found: Vec<Vec<F::Found>> = groups
-        .into_par_iter()
-        .map_init(|| Desk::new(task.light), |desk, range| {
-            let group =
-                Group::<F> { task, rulings: &rulings, points, order: &order[range], desk, find: PhantomData };
-            Arch::new().dispatch(group)
-        })
-        .collect();
-    let mut each = vec![none; points.len()];
-    for (&index, one) in order.iter().zip(found.into_iter().flatten()) {
-        each[index as usize] = one;
+    let mut found = vec![none; points.len()];
+    // Groups stand in the order's order.
+    let mut rest = found.as_mut_slice();
+    let mut parts = Vec::with_capacity(groups.len());
+    for range in groups {
+        let (part, others) = rest.split_at_mut(range.len());
+        parts.push((part, range));
+        rest = others;
     }
-    each
+    parts.into_par_iter().for_each_init(
+        || Desk::new(task.light),
+        |desk, (found, range)| {
+            let order = &order[range];
+            Arch::new().dispatch(Group::<F> { task, rulings: &rulings, points, order, desk, found });
+        },
+    );
+    let place: Vec<AtomicU32> = (0..points.len()).into_par_iter().map(|_| AtomicU32::new(0)).collect();
+    order.par_iter().enumerate().for_each(|(at, &index)| place[index as usize].store(at as u32, Relaxed));
+    place.into_par_iter().map(|at| found[at.into_inner() as usize]).collect()
 }
 
 /// Receivers near each other. Compiled for the widest registers that there are; the same bits with any.
-struct Group<'a, F> {
+struct Group<'a, F: Find> {
     task: &'a Task<'a>,
     rulings: &'a Rulings,
     points: &'a Points,
     order: &'a [u32],
     desk: &'a mut Desk,
-    find: PhantomData<F>,
+    /// Of each point in the order; filled with what is found where there is no light to see.
+    found: &'a mut [F::Found],
 }
 
 impl<F: Find> WithSimd for Group<'_, F> {
-    type Output = Vec<F::Found>;
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Vec<F::Found> {
-        let Self { task, rulings, points, order, desk, .. } = self;
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { task, rulings, points, order, desk, found } = self;
         let surfaces = &task.tracer.surfaces;
         let mut receivers: Vec<Placed> = Vec::with_capacity(order.len());
+        let mut last = None;
         for (at, &index) in order.iter().enumerate() {
-            let last = receivers.last().map(|placed| &placed.receiver);
-            let receiver = Receiver::beside(last, surfaces, points, index as usize);
-            receivers.push(Placed { receiver, index, at: at as u32 });
-        }
-        let mut found: Vec<Option<F::Found>> = vec![None; order.len()];
-        let mut last = 0;
-        if task.settings.method == Method::ScanlineRays {
-            for placed in &receivers {
-                let point = (&placed.receiver, points, placed.index as usize);
-                found[placed.at as usize] = Some(F::find(task, rulings, point, desk, &mut last));
+            let receiver = Receiver::beside(last.as_ref(), surfaces, points, index as usize);
+            last = Some(receiver);
+            let Some(aim) = desk.aim(task.light, &receiver) else { continue };
+            if aim.elevation(receiver.normal) == Elevation::Below {
+                found[at] = F::BELOW;
+            } else {
+                receivers.push(Placed { receiver, index, at: at as u32 });
             }
-            return found.into_iter().flatten().collect();
         }
+        if receivers.is_empty() {
+            return;
+        }
+        let rays = task.settings.method == Method::ScanlineRays;
         // Depth first: the list of a part is on the desk until both of its halves are done.
         let mut parts = vec![(0..receivers.len(), 0)];
         while let Some((range, depth)) = parts.pop() {
             let part = &mut receivers[range.clone()];
-            let standpoint = Standpoint::new(task.light, part);
+            let standpoint = if rays { None } else { Standpoint::new(task.light, part) };
             if let (Some(standpoint), Some(hidden)) = (&standpoint, F::HIDDEN)
                 && let Some(aim) = standpoint.aim(task.light)
                 && desk.shade.hides(surfaces, standpoint, &aim)
             {
                 for placed in &receivers[range] {
-                    found[placed.at as usize] = Some(hidden(task, &placed.receiver, desk));
+                    found[placed.at as usize] = hidden(task, &placed.receiver, desk);
                 }
                 continue;
             }
-            let volume = Volume::new(task.light, part, f64::from(surfaces.extent));
-            if desk.lists.len() <= depth {
-                desk.lists.resize_with(depth + 1, Blocks::default);
-            }
-            if depth == 0 {
-                volume.gather(surfaces, (&mut desk.open, &mut desk.lists[0], &mut desk.cards));
-            } else if let [.., from, into] = &mut desk.lists[..=depth] {
-                volume.filter(from, into);
-            }
-            let candidates = desk.lists[depth].blocks.len();
-            if part.len() > FEW && candidates > SIMPLE {
-                let middle = range.start + halve(part);
-                if range.contains(&middle) && middle > range.start {
-                    parts.push((middle..range.end, depth + 1));
-                    parts.push((range.start..middle, depth + 1));
-                    continue;
+            if !rays {
+                let volume = Volume::new(task.light, part, f64::from(surfaces.extent));
+                if desk.lists.len() <= depth {
+                    desk.lists.resize_with(depth + 1, Blocks::default);
                 }
+                if depth == 0 {
+                    volume.gather(surfaces, (&mut desk.open, &mut desk.lists[0], &mut desk.cards));
+                } else if let [.., from, into] = &mut desk.lists[..=depth] {
+                    volume.filter(from, into);
+                }
+                let candidates = desk.lists[depth].blocks.len();
+                if part.len() > FEW && candidates > SIMPLE {
+                    let middle = range.start + halve(part);
+                    if range.contains(&middle) && middle > range.start {
+                        parts.push((middle..range.end, depth + 1));
+                        parts.push((range.start..middle, depth + 1));
+                        continue;
+                    }
+                }
+                desk.patches.sort(surfaces, standpoint.as_ref(), (&desk.lists[depth], &mut desk.blocks));
+                desk.blocks.close();
             }
-            desk.patches.sort(surfaces, standpoint.as_ref(), (&desk.lists[depth], &mut desk.blocks));
-            desk.blocks.close();
-            last = 0;
+            let mut last = 0;
             for placed in &receivers[range] {
                 let point = (&placed.receiver, points, placed.index as usize);
-                found[placed.at as usize] = Some(F::find(task, rulings, point, desk, &mut last));
+                found[placed.at as usize] = F::find(task, rulings, point, desk, &mut last);
             }
         }
-        found.into_iter().flatten().collect()
     }
 }
 
@@ -232,12 +244,16 @@ fn neighbours(points: &Points) -> (Vec<u32>, Vec<Range<usize>>) {
     for &p in &points.position {
         (low, high) = (low.min(p), high.max(p));
     }
-    let scale = 2_097_151.0 / (high - low).max_element().max(f32::MIN_POSITIVE);
+    let scale = 1_048_575.0 / (high - low).max_element().max(f32::MIN_POSITIVE);
     let mut keyed: Vec<(u64, u32)> = (0..points.len())
         .into_par_iter()
         .map(|i| {
             let [x, y, z] = ((points.position[i] - low) * scale).to_array().map(|c| spread(c as u64));
-            (x | y << 1 | z << 2, i as u32)
+            // Receivers that face different ways see different things.
+            let normal = points.normal[i].abs();
+            let axis = normal.max_position();
+            let kind = 2 * axis as u64 + u64::from(points.normal[i][axis] < 0.0);
+            (x | y << 1 | z << 2 | kind << 60, i as u32)
         })
         .collect();
     keyed.par_sort_unstable();

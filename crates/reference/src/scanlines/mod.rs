@@ -80,6 +80,8 @@ struct Weighing;
 impl Find for Looking {
     type Found = PointTruth;
 
+    const BELOW: PointTruth = PointTruth::exact(0.0, false);
+
     const HIDDEN: Option<fn(&Task, &Receiver, &Desk) -> PointTruth> = Some(|task, receiver, desk| {
         let elevation = desk.aim(task.light, receiver).map(|aim| aim.elevation(receiver.normal));
         PointTruth::exact(0.0, elevation == Some(Elevation::Above))
@@ -122,6 +124,8 @@ impl Find for Looking {
 
 impl Find for Weighing {
     type Found = [f32; 3];
+
+    const BELOW: [f32; 3] = [0.0; 3];
 
     #[inline(always)]
     fn find(

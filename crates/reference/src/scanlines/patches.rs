@@ -109,6 +109,9 @@ impl Patches {
                     continue;
                 }
                 let (slot, corners) = (block.slots[lane], block.triangle(lane));
+                if sure.clear >> lane & 1 == 0 && standpoint.skips(&corners) {
+                    continue;
+                }
                 if sure.between >> lane & 1 == 0 {
                     rest.push(slot, &corners);
                     continue;
@@ -384,4 +387,3 @@ impl Work {
 fn spot(slot: u32, size: usize) -> usize {
     (u64::from(slot.wrapping_mul(0x9e37_79b9)) * size as u64 >> 32) as usize
 }
-

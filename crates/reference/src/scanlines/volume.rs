@@ -136,7 +136,9 @@ impl Volume {
 
     #[inline(always)]
     fn along(&self, normals: &[Eight; 3], place: [f32; 3]) -> Eight {
-        normals[0] * Eight::all(place[0]) + normals[1] * Eight::all(place[1]) + normals[2] * Eight::all(place[2])
+        normals[0] * Eight::all(place[0])
+            + normals[1] * Eight::all(place[1])
+            + normals[2] * Eight::all(place[2])
     }
 }
 

@@ -46,7 +46,12 @@ impl Winding {
 
     /// Adds what a receiver sees of eight edges.
     #[inline(always)]
-    pub(super) fn add(&mut self, seen: &Seen, lines: &Lines, (frame, ruling, turn): (&Frame, &Ruling, &Turn)) {
+    pub(super) fn add(
+        &mut self,
+        seen: &Seen,
+        lines: &Lines,
+        (frame, ruling, turn): (&Frame, &Ruling, &Turn),
+    ) {
         let [p, q, r] = seen.line;
         let across = p * Eight::all(turn.xx) + q * Eight::all(turn.yx);
         let along = p * Eight::all(turn.xy) + q * Eight::all(turn.yy);
