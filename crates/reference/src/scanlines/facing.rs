@@ -15,6 +15,12 @@ use umbrage_scene::AreaLight;
 /// it was made of.
 const ROUNDING: f32 = 4e-6;
 
+/// How far before the receivers triangles are cut, in halves of their box.
+const CLIP: f64 = 0.2;
+
+/// Ways to the light longer than this over their depth are too flat for that.
+const STEEPEST: f64 = 8.0;
+
 /// Where the receivers of a group are, and how the light lies to them.
 pub(super) struct Standpoint {
     centre: Vec3,
@@ -27,8 +33,22 @@ pub(super) struct Standpoint {
     heights: [f32; 2],
     extent: f32,
     far: Far,
+    /// A flat light's centre from the group's, and its axes.
+    light: Option<[Vec3; 3]>,
+    /// The plane parallel to the light before which triangles are cut.
+    clip: Option<Clip>,
+    /// From a receiver to where its view meets that plane, and half of the box around such ways.
+    drift: [Vec3; 2],
     /// The normal that all share, if they do, and the lowest place along it.
     shared: Option<(DVec3, f64)>,
+}
+
+/// Before a plane: from the group's centre, along a unit vector.
+#[derive(Clone, Copy)]
+pub(super) struct Clip {
+    axis: DVec3,
+    height: f64,
+    centre: DVec3,
 }
 
 /// Between which depths a triangle surely stands before the light.
@@ -44,11 +64,13 @@ enum Far {
 /// A bit for each triangle of a block.
 #[derive(Clone, Copy)]
 pub(super) struct Sure {
-    /// Wholly before all receivers and nearer than the light.
-    pub(super) between: u32,
+    /// Wholly before all receivers.
+    pub(super) front: u32,
+    /// What of it is before the light is nearer than the light.
+    pub(super) nearer: u32,
     /// Surely not the receiver's own, in its plane or below its horizon.
     pub(super) clear: u32,
-    /// All receivers are on one side of its plane; on which.
+    /// All receivers are on one side of its plane, with all that is before them up to `Standpoint::clip`; on which.
     pub(super) sided: u32,
     pub(super) behind: u32,
     /// Hides nothing from any receiver.
@@ -78,7 +100,7 @@ impl Standpoint {
         };
         let middle = Receiver { position: centre.as_dvec3(), ..receivers[0].receiver };
         let aim = Aim::new(light, &middle)?;
-        let far = match aim.spread {
+        let mut far = match aim.spread {
             Spread::Cone { distance: Distance::Infinite, .. } => {
                 let axis = aim.axis.normalize();
                 let [lowest, highest] = reach(axis).map(|t| t as f32);
@@ -110,13 +132,51 @@ impl Standpoint {
                 Far::Ball { axis: aim.axis.as_vec3(), reach: reach as f32, most: most as f32 }
             }
         };
+        let light = matches!(aim.spread, Spread::Area).then(|| [aim.axis, aim.u, aim.v].map(DVec3::as_vec3));
+        let (clip, drift) = match &mut far {
+            Far::Plane { range: [nearest, _], out: [lowest, _], .. } => {
+                let axis = match aim.spread {
+                    Spread::Area => aim.u.cross(aim.v).normalize(),
+                    Spread::Cone { .. } => aim.axis.normalize(),
+                };
+                let axis = if axis.dot(aim.axis) < 0.0 { -axis } else { axis };
+                let depth = f64::from(half.max_element()) * CLIP + 1e-5 * aim.reach(1.0, 1.0).min(1.0);
+                let height = f64::from(*nearest) + depth;
+                let clip = Clip { axis, height, centre: centre.as_dvec3() };
+                // Ways to the light that end at this depth: their middle, and how far others end from it.
+                let depth = height - f64::from(*lowest);
+                let rise = axis.dot(aim.axis);
+                let (steep, flattest) = (depth / rise, depth / (rise - axis.abs().dot(half.as_dvec3())));
+                let spread = aim.u.abs() + aim.v.abs() + half.as_dvec3();
+                let spread = spread * flattest + aim.axis.abs() * (flattest - steep);
+                if flattest > 0.0 && flattest * aim.axis.length() < STEEPEST * depth {
+                    *nearest = height as f32;
+                    (Some(clip), [(aim.axis * steep).as_vec3(), widened(spread)])
+                } else {
+                    (None, [Vec3::ZERO; 2])
+                }
+            }
+            Far::Ball { .. } => (None, [Vec3::ZERO; 2]),
+        };
         let heights = reach(normal.as_dvec3()).map(|h| h as f32);
         let own = receivers[0].receiver.normal;
         let shared = (low == high && own != DVec3::ZERO).then(|| {
             let heights = receivers.iter().map(|r| own.dot(r.receiver.position));
             (own, heights.fold(f64::INFINITY, f64::min))
         });
-        Some(Self { shared, centre, half, normal, sway, heights, extent: centre.abs().element_sum(), far })
+        Some(Self {
+            light,
+            clip,
+            drift,
+            shared,
+            centre,
+            half,
+            normal,
+            sway,
+            heights,
+            extent: centre.abs().element_sum(),
+            far,
+        })
     }
 
     /// At a light whose points are the same from everywhere: not at a sphere, of which each receiver sees other parts.
@@ -125,6 +185,10 @@ impl Standpoint {
             AreaLight::Sphere { .. } => None,
             _ => Aim::new(light, &Receiver::in_air(self.centre.as_dvec3())),
         }
+    }
+
+    pub(super) fn clip(&self) -> Option<Clip> {
+        self.clip
     }
 
     pub(super) fn centre(&self) -> Vec3 {
@@ -170,37 +234,52 @@ impl Standpoint {
         let ([low, high], sway) = (self.heights, self.sway.dot(self.half));
         let clear = (Eight::all(high + sway) + rounding).below(highest);
         let below = (at_most + rounding).below(Eight::all(low - sway));
-        let [between, out] = self.between(&d, rounding);
+        let [front, nearer, out] = self.between(&d, rounding);
         // The height of the triangle's plane over the centre, times twice its area.
         let (p, q) = (sub(b, a), sub(c, a));
         let half = self.half.to_array();
         let mut plane = Eight::all(0.0);
         let mut off = Eight::all(0.0);
+        let mut normal = [Eight::all(0.0); 3];
         for [i, j, k] in [[0, 1, 2], [1, 2, 0], [2, 0, 1]] {
             let (x, y) = (p[j] * q[k], p[k] * q[j]);
             let n = x - y;
             plane = plane + n * a[i];
+            normal[i] = n;
             let wide = a[i].abs() + Eight::all(half[i]);
             off = off
                 + n.abs() * (Eight::all(half[i]) + rounding)
                 + (x.abs() + y.abs()) * wide * Eight::all(ROUNDING);
         }
-        let sided = off.below(plane.abs());
+        // And from all the places where the view meets the plane at which triangles are cut.
+        let ahead = plane - dot(self.drift[0], &normal);
+        let widest = self.drift[1] + self.drift[0].abs() * ROUNDING;
+        let far_off = off + dot(widest, &abs(&normal));
+        let sided = off.below(plane.abs()).and(far_off.below(ahead.signed_as(plane)));
         let behind = plane.below(Eight::all(0.0));
+        let mut nearer = nearer;
+        if let Some([middle, u, v]) = self.light {
+            // Or its plane has the receivers on one side and all of the light on the other.
+            let (u, v) = (dot(u, &normal).abs(), dot(v, &normal).abs());
+            let beyond = (dot(middle, &normal) - plane).signed_as(plane) - u - v;
+            let size = dot(middle.abs(), &abs(&normal)) + plane.abs() + off + u + v;
+            nearer = nearer.or((size * Eight::all(4.0 * LIGHT_GAP as f32)).below(beyond));
+        }
+        let nearer = nearer.bits();
         let never = out.or(below).bits();
-        let [between, clear, sided, behind] = bytes([between, clear, sided, behind]);
-        Sure { between, clear, sided, behind, never }
+        let [front, clear, sided, behind] = bytes([front, clear, sided, behind]);
+        Sure { front, nearer, clear, sided, behind, never }
     }
 
     #[inline(always)]
-    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> [Mask; 2] {
+    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> [Mask; 3] {
         match self.far {
             Far::Plane { axis, range: [nearest, most], out: [behind, beyond] } => {
                 let [a, b, c] = [dot(axis, a), dot(axis, b), dot(axis, c)];
                 let (low, high) = (a.min(b).min(c) - rounding, a.max(b).max(c) + rounding);
-                let between = Eight::all(nearest).below(low).and(high.below(Eight::all(most)));
+                let (front, nearer) = (Eight::all(nearest).below(low), high.below(Eight::all(most)));
                 let out = high.below(Eight::all(behind)).or(Eight::all(beyond).below(low));
-                [between, out]
+                [front, nearer, out]
             }
             Far::Ball { axis, reach, most } => {
                 let away = length(axis, a).max(length(axis, b)).max(length(axis, c));
@@ -210,9 +289,23 @@ impl Standpoint {
                 let (low, high) = (a.min(b).min(c) - spread, a.max(b).max(c) + spread);
                 let (zero, most) = (Eight::all(0.0), Eight::all(most));
                 let behind = (high + Eight::all(reach * reach)).below(zero);
-                [zero.below(low).and(high.below(most)), behind]
+                [zero.below(low), high.below(most), behind]
             }
         }
+    }
+}
+
+impl Clip {
+    /// Of each corner.
+    pub(super) fn heights(&self, corners: &[Vec3; 3]) -> [f64; 3] {
+        corners.map(|c| self.axis.dot(c.as_dvec3() - self.centre) - self.height)
+    }
+
+    /// Where a side crosses the plane: the same place from both ends.
+    pub(super) fn between(&self, a: Vec3, b: Vec3) -> Vec3 {
+        let (a, b) = if a.to_array() < b.to_array() { (a, b) } else { (b, a) };
+        let [p, q, _] = self.heights(&[a, b, b]);
+        a.as_dvec3().lerp(b.as_dvec3(), p / (p - q)).as_vec3()
     }
 }
 

@@ -27,6 +27,7 @@ const TOGETHER: usize = 64;
 /// A list is made shorter for each half of the receivers while they are more than this, and it has more blocks of
 /// eight triangles than that.
 const FEW: usize = 8;
+const MANY: usize = 24;
 const SIMPLE: usize = 6;
 
 /// Normals that differ by more in a coordinate are told apart before places.
@@ -191,7 +192,10 @@ impl<F: Find> WithSimd for Group<'_, F> {
                     volume.filter(from, into);
                 }
                 let candidates = desk.lists[depth].blocks.len();
-                if part.len() > FEW && candidates > SIMPLE {
+                let shrinks = depth == 0
+                    || 4 * candidates < 3 * desk.lists[depth - 1].blocks.len()
+                    || part.len() > MANY;
+                if part.len() > FEW && candidates > SIMPLE && shrinks {
                     let middle = range.start + halve(part);
                     if range.contains(&middle) && middle > range.start {
                         parts.push((middle..range.end, depth + 1));

@@ -151,12 +151,23 @@ impl Ruling {
         if whole >= RISE as f32 && whole < n - RISE as f32 {
             return u32::MAX >> (BITS - self.per_row);
         }
+        // The row only rises or only falls: where it crosses a strip's end, its samples part.
         let sign = if falls { -1.0 } else { 1.0 };
-        (0..self.per_row).fold(0, |bits, i| {
+        let (mut low, mut high) = (0, self.per_row);
+        let on = |i: u32| {
             let rise = part + sign * RISE as f32 * (i as f32 + shift) / self.per_row as f32;
             let strip = whole + rise.floor();
-            bits | u32::from(strip >= 0.0 && strip < n) << i
-        })
+            strip >= 0.0 && strip < n
+        };
+        // A row that starts on the light leaves it, one that starts off it enters.
+        let starts = on(0);
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if on(middle) == starts { low = middle + 1 } else { high = middle }
+        }
+        let before = 1u32.unbounded_shl(low).wrapping_sub(1);
+        let all = u32::MAX >> (BITS - self.per_row);
+        if starts { before & all } else { !before & all }
     }
 
     /// The samples of a row that are on a round light.

@@ -9,7 +9,7 @@
 use super::blocks::{Block, Blocks};
 use super::edges::{Edges, Seen};
 use super::eight::LANES;
-use super::facing::Standpoint;
+use super::facing::{Clip, Standpoint};
 use super::frame::Frame;
 use crate::receiver::Receiver;
 use crate::surfaces::Surfaces;
@@ -49,6 +49,8 @@ struct Candidate {
     /// 1 or -1; 0 where it depends on the receiver.
     side: i8,
     clear: bool,
+    /// Whether it has to be cut before all receivers.
+    cut: bool,
     /// Another of the same patch, or itself.
     parent: u32,
     owner: u32,
@@ -112,7 +114,9 @@ impl Patches {
                 if sure.clear >> lane & 1 == 0 && standpoint.skips(&corners) {
                     continue;
                 }
-                if sure.between >> lane & 1 == 0 {
+                let front = sure.front >> lane & 1 != 0;
+                let cut = standpoint.clip().is_some() && (sure.clear & sure.sided) >> lane & 1 != 0;
+                if sure.nearer >> lane & 1 == 0 || !(front || cut) {
                     rest.push(slot, &corners);
                     continue;
                 }
@@ -123,14 +127,15 @@ impl Patches {
                     (true, true) => -1,
                 };
                 let parent = self.work.candidates.len() as u32;
-                let candidate = Candidate { slot, corners, side, clear, parent, owner: NOWHERE };
+                let cut = !front;
+                let candidate = Candidate { slot, corners, side, clear, cut, parent, owner: NOWHERE };
                 self.work.candidates.push(candidate);
             }
         }
         self.work.index();
         self.work.join(surfaces);
         self.name_owners();
-        self.keep_edges();
+        self.keep_edges(standpoint.clip());
     }
 
     fn name_owners(&mut self) {
@@ -164,10 +169,21 @@ impl Patches {
         self.sides.resize(self.patches + self.open.blocks.len() * LANES, 1);
     }
 
-    fn keep_edges(&mut self) {
+    fn keep_edges(&mut self, clip: Option<Clip>) {
         for &(at, k, beyond) in &self.work.kept {
             let one = &self.work.candidates[at as usize];
-            let ends = [one.corners[k as usize], one.corners[(k as usize + 1) % 3]];
+            let mut ends = [one.corners[k as usize], one.corners[(k as usize + 1) % 3]];
+            if one.cut
+                && let Some(clip) = clip
+            {
+                let [from, to, _] = clip.heights(&[ends[0], ends[1], ends[1]]);
+                match (from > 0.0, to > 0.0) {
+                    (true, true) => {}
+                    (true, false) => ends[1] = clip.between(ends[0], ends[1]),
+                    (false, true) => ends[0] = clip.between(ends[0], ends[1]),
+                    (false, false) => continue,
+                }
+            }
             let unless_open = |side: i8| if side == 0 { 1 } else { side };
             let mut owners = [one.owner; 2];
             let mut sides = [unless_open(one.side), 0];
@@ -179,14 +195,25 @@ impl Patches {
                 sides[1] = if reverse { -unless_open(other.side) } else { unless_open(other.side) };
                 open |= other.side == 0;
             }
-            let lane = self.filled % LANES;
-            if lane == 0 {
-                self.edges.push(Edges::default());
+            put(&mut self.edges, &mut self.filled, (ends, owners, sides, open));
+        }
+        // What is cut has an edge there.
+        let Some(clip) = clip else { return };
+        for one in self.work.candidates.iter().filter(|c| c.cut) {
+            let heights = clip.heights(&one.corners);
+            let (mut from, mut to) = (None, None);
+            for k in 0..3 {
+                let next = (k + 1) % 3;
+                let place = || clip.between(one.corners[k], one.corners[next]);
+                match (heights[k] > 0.0, heights[next] > 0.0) {
+                    (true, false) => from = Some(place()),
+                    (false, true) => to = Some(place()),
+                    _ => {}
+                }
             }
-            if let Some(last) = self.edges.last_mut() {
-                last.set(lane, ends, owners, sides, open);
+            if let (Some(from), Some(to)) = (from, to) {
+                put(&mut self.edges, &mut self.filled, ([from, to], [one.owner; 2], [one.side, 0], false));
             }
-            self.filled += 1;
         }
     }
 
@@ -292,6 +319,22 @@ impl Patches {
             }
         }
     }
+}
+
+/// Adds an edge: ends, owners, sides, whether one of them is open.
+fn put(
+    edges: &mut Vec<Edges>,
+    filled: &mut usize,
+    (ends, owners, sides, open): ([Vec3; 2], [u32; 2], [i8; 2], bool),
+) {
+    let lane = *filled % LANES;
+    if lane == 0 {
+        edges.push(Edges::default());
+    }
+    if let Some(last) = edges.last_mut() {
+        last.set(lane, ends, owners, sides, open);
+    }
+    *filled += 1;
 }
 
 /// Layers that edges with one owner each make at the light's middle.

@@ -105,7 +105,7 @@ impl Shade {
             }
             let Some(block) = self.wave.blocks.first() else { return false };
             let sure = standpoint.sure(block);
-            let all = sure.between & sure.clear & sure.sided;
+            let all = sure.nearer & sure.clear & sure.sided;
             if !all & block.used() != 0 {
                 return false;
             }
