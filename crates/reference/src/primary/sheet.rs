@@ -6,13 +6,14 @@
 //! and behind the eye too (Olano and Greer 1997). Turned so that D > 0, the triangle is hit where the three weights
 //! are not negative, and 1/t is the sum of the three over D.
 //!
-//! The functions stand back from what `surfaces::intersect` finds by no more than their slack:
-//! - That test and the coefficients here start with the same rounded a, ab and ac. A product of three vectors
-//!   then takes fewer than 32 roundings of 2^-53 relative to the product of the vectors' lengths, on both sides
-//!   and with the direction's own: [`EXACT`], twice that. For the weights the lengths are those of the
-//!   direction, of a side, and of a or the other side.
-//! - An evaluation in f32 takes a rounding of a coefficient, of its product, and one for each row: no more than 16
-//!   of 2^-24 relative to the largest value in the tile: [`SINGLE`].
+//! `surfaces::intersect` decides in f64 with roundings of its own. What it may take for a hit, or for nearer, these
+//! functions do not miss, since each is raised by its slack:
+//! - Both start with the same rounded a, ab and ac. A product of three vectors then takes no more than 10
+//!   roundings of 2^-53 relative to the product of their sizes (sums of absolute coordinates), on both sides; d's
+//!   own, and those of sums and quotients of weights, make it less than 32: [`EXACT`] is twice that. The sizes are
+//!   d's, a side's, and a's or the other side's.
+//! - In f32 a value takes seven roundings before the row's steps, and one for each: less than 16 of 2^-24 relative to
+//!   the largest value in the tile: [`SINGLE`].
 
 use super::tile::{HALF, ROWS};
 use glam::DVec3;
@@ -43,7 +44,7 @@ pub(super) struct Sheet {
 }
 
 /// What a tile knows of a triangle.
-pub(super) enum Seen {
+pub(super) enum Aspect {
     /// No pixel hits it before 1/t = `least`.
     Nowhere,
     /// The functions decide.
@@ -54,7 +55,7 @@ pub(super) enum Seen {
 
 impl Sheet {
     #[inline(always)]
-    pub(super) fn new(sight: &Sight, [a, b, c]: [DVec3; 3], least: f64) -> Seen {
+    pub(super) fn new(sight: &Sight, [a, b, c]: [DVec3; 3], least: f64) -> Aspect {
         let (ab, ac, a) = (b - a, c - a, a - sight.eye);
         let n = ab.cross(ac);
         let volume = n.dot(a);
@@ -62,13 +63,13 @@ impl Sheet {
         let (n, v, w) = (n * turned, ac.cross(a) * turned, a.cross(ab) * turned);
         let side = size(ab) + size(ac);
         let away = size(a);
-        // Of 1/t, by what `intersect` may be wrong in D and in d.n.
         let volume = volume.abs();
+        // 1/t may be off by this times d's size for d.n, and by this times a's size, in parts, for D.
         let lost = EXACT * side * side / volume;
         let slack = EXACT * sight.length * side * (away + side);
         // Not a number where D is zero.
         if !(lost * away < SINGLE && slack > 1e-30 && slack < 1e30 && volume > 1e-30 && volume < 1e30) {
-            return Seen::Unknown;
+            return Aspect::Unknown;
         }
         let mut values = [[0.0; 3]; 4];
         for (i, place) in [sight.middle, sight.right, sight.down].into_iter().enumerate() {
@@ -83,11 +84,11 @@ impl Sheet {
         for (i, [at, across, down]) in values.into_iter().enumerate() {
             let reach = HALF * (across.abs() + down.abs());
             let largest = at.abs() + reach;
-            let slack = match i {
-                3 => lost * sight.length + 2.0 * SINGLE * largest,
-                _ => slack + SINGLE * largest,
+            // D's part is less than SINGLE, see above.
+            let (slack, lowest) = match i {
+                3 => (lost * sight.length + 2.0 * SINGLE * largest, least),
+                _ => (slack + SINGLE * largest, 0.0),
             };
-            let lowest = if i == 3 { least } else { 0.0 };
             out |= at + reach + slack < lowest;
             sheet.at[i] = (at + slack - HALF_ROWS * down) as f32;
             sheet.across[i] = across as f32;
@@ -96,7 +97,7 @@ impl Sheet {
                 sheet.sure = sheet.sure.max(2.0 * slack as f32);
             }
         }
-        if out { Seen::Nowhere } else { Seen::Here(sheet) }
+        if out { Aspect::Nowhere } else { Aspect::Here(sheet) }
     }
 }
 

@@ -7,7 +7,7 @@
 
 use super::camera::{CameraRays, Lines};
 use super::frustum::{Frustum, MISSED};
-use super::sheet::{Seen, Sheet, Sight};
+use super::sheet::{Aspect, Sheet, Sight};
 use crate::scanlines::{Eight, LANES};
 use crate::surfaces::{Surfaces, intersect};
 
@@ -120,9 +120,9 @@ impl Tile {
                 continue;
             }
             changed |= match Sheet::new(&self.sight, surfaces.corners_f64(slot), self.least) {
-                Seen::Nowhere => false,
-                Seen::Here(sheet) => self.cover(surfaces, slot, &sheet),
-                Seen::Unknown => self.all(surfaces, slot),
+                Aspect::Nowhere => false,
+                Aspect::Here(sheet) => self.cover(surfaces, slot, &sheet),
+                Aspect::Unknown => self.all(surfaces, slot),
             };
         }
         if changed {
