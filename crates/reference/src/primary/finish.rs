@@ -107,10 +107,10 @@ fn meets_box(
         last = last.min(one.max(other));
     }
     let mut out = [false; LANES];
-    for k in 0..LANES {
+    for (k, meets) in out.iter_mut().enumerate() {
         let end = (distance.0[k] * (1.0 + 0.5 * f64::from(APART))) as f32;
         let end = end.min((far.0[k] * BOX_END) as f32);
-        out[k] = last.0[k] >= first.0[k] && last.0[k] >= 0.0 && first.0[k] < end;
+        *meets = last.0[k] >= first.0[k] && last.0[k] >= 0.0 && first.0[k] < end;
     }
     out
 }

@@ -53,9 +53,9 @@ pub(super) enum Aspect {
     Unknown,
 }
 
-impl Sheet {
+impl Aspect {
     #[inline(always)]
-    pub(super) fn new(sight: &Sight, [a, b, c]: [DVec3; 3], least: f64) -> Aspect {
+    pub(super) fn new(sight: &Sight, [a, b, c]: [DVec3; 3], least: f64) -> Self {
         let (ab, ac, a) = (b - a, c - a, a - sight.eye);
         let n = ab.cross(ac);
         let volume = n.dot(a);
@@ -69,7 +69,7 @@ impl Sheet {
         let slack = EXACT * sight.length * side * (away + side);
         // Not a number where D is zero.
         if !(lost * away < SINGLE && slack > 1e-30 && slack < 1e30 && volume > 1e-30 && volume < 1e30) {
-            return Aspect::Unknown;
+            return Self::Unknown;
         }
         let mut values = [[0.0; 3]; 4];
         for (i, place) in [sight.middle, sight.right, sight.down].into_iter().enumerate() {
@@ -79,7 +79,7 @@ impl Sheet {
             values[2][i] = of_c;
             values[3][i] = sum / volume;
         }
-        let mut sheet = Self { at: [0.0; 4], across: [0.0; 4], down: [0.0; 4], sure: 0.0 };
+        let mut sheet = Sheet { at: [0.0; 4], across: [0.0; 4], down: [0.0; 4], sure: 0.0 };
         let mut out = false;
         for (i, [at, across, down]) in values.into_iter().enumerate() {
             let reach = HALF * (across.abs() + down.abs());
@@ -97,7 +97,7 @@ impl Sheet {
                 sheet.sure = sheet.sure.max(2.0 * slack as f32);
             }
         }
-        if out { Aspect::Nowhere } else { Aspect::Here(sheet) }
+        if out { Self::Nowhere } else { Self::Here(sheet) }
     }
 }
 

@@ -50,8 +50,8 @@ impl Tile {
     pub(super) fn new(place: &Place, [x, y]: [u32; 2]) -> Self {
         let Place { surfaces, camera, size } = *place;
         let mut lines = [camera.lines(x, y); ROWS];
-        for row in 1..ROWS {
-            lines[row] = camera.lines(x, y + row as u32);
+        for (row, lines) in lines.iter_mut().enumerate() {
+            *lines = camera.lines(x, y + row as u32);
         }
         let half = [0.5 * (LANES - 1) as f64, 0.5 * (ROWS - 1) as f64];
         let sight = Sight {
@@ -119,7 +119,7 @@ impl Tile {
             if self.frustum.misses(&surfaces.corners[slot as usize]) {
                 continue;
             }
-            changed |= match Sheet::new(&self.sight, surfaces.corners_f64(slot), self.least) {
+            changed |= match Aspect::new(&self.sight, surfaces.corners_f64(slot), self.least) {
                 Aspect::Nowhere => false,
                 Aspect::Here(sheet) => self.cover(surfaces, slot, &sheet),
                 Aspect::Unknown => self.all(surfaces, slot),

@@ -44,9 +44,9 @@ impl Wide {
 
     #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
-        let mut out = [0.0; LANES];
-        for k in 0..LANES {
-            out[k] = self.0[k].sqrt();
+        let mut out = self.0;
+        for lane in &mut out {
+            *lane = lane.sqrt();
         }
         Self(out)
     }
