@@ -97,6 +97,7 @@ impl Tracer {
         (seen.iter().map(|s| s.depth).collect(), points)
     }
 
+    /// Through one pixel: what the tiles must equal.
     fn seen(&self, camera: &CameraRays, x: u32, y: u32) -> Seen {
         let line = camera.line(x, y);
         let Some(hit) = self.surfaces.closest(&line, |_, _| false) else { return NOTHING };

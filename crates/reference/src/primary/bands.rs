@@ -22,16 +22,16 @@ pub(super) struct Hits<D, V, W> {
 type Whole = Hits<Vec<f32>, Vec<Vec3>, Vec<u32>>;
 type Part<'a> = Hits<&'a mut [f32], &'a mut [Vec3], &'a mut [u32]>;
 
-/// With fewer pixels per triangle than one to this many, tiles would meet more triangles than a ray of its own does
-/// boxes: both ways take as long at one to 15 (Crytek Sponza, 160 by 110 pixels).
-const CROWD: usize = 16;
+/// With more triangles than this per pixel of a picture, tiles look at more triangles than they have rays. Both ways
+/// take as long at 8 (an atrium) to 13 (Crytek Sponza).
+const CROWD: usize = 8;
 
 /// All pixels of a picture of some size.
 pub(super) fn fill(tracer: &Tracer, camera: &CameraRays, size: [u32; 2], hits: &mut Whole) {
     if hits.depth.is_empty() {
         return;
     }
-    // A view without a depth has no tiles either.
+    // A flat view has no depth, and no tiles.
     let crowded = tracer.surfaces.corners.len() / CROWD >= hits.depth.len();
     let together = !crowded && camera.depth.is_finite();
     let rows = if together { ROWS } else { 1 };
@@ -68,7 +68,7 @@ struct Band<'a> {
     open: &'a mut Vec<(u32, f32)>,
 }
 
-/// Compiled for the widest registers that there are; the same bits with any.
+// Compiled for the widest registers that there are; the same bits with any.
 impl WithSimd for Band<'_> {
     type Output = ();
 

@@ -49,12 +49,7 @@ impl Row {
             meets_box(place.camera.eye, (direction, lines.far), distance, [low.map(Eight), high.map(Eight)]);
         let normal = ab.cross(ac);
         let scale = Wide::all(1.0) / normal.dot(normal).sqrt();
-        let mut turned = Wide::all(0.0);
-        for k in 0..LANES {
-            // As `normalize_or_zero`.
-            turned.0[k] = if scale.0[k] < f64::INFINITY && scale.0[k] > 0.0 { scale.0[k] } else { 0.0 };
-        }
-        let normal = normal * turned;
+        let normal = normal * scale;
         let towards = normal.dot(direction);
         let position = Wide3::all(place.camera.eye) + direction * distance;
         let cos = Wide3::all(place.camera.forward).dot(direction);
@@ -73,8 +68,12 @@ impl Row {
             found.known[k] = alone && !tile.doubt[row][k];
             found.depth[k] = (distance.0[k] * cos.0[k]) as f32;
             found.position[k] = position.lane(k).as_vec3();
-            let normal = normal.lane(k);
-            found.normal[k] = if towards.0[k] > 0.0 { -normal } else { normal }.as_vec3();
+            // As `Tracer::normal_towards`.
+            found.normal[k] = match normal.lane(k) {
+                _ if !(scale.0[k].is_finite() && scale.0[k] > 0.0) => Vec3::ZERO,
+                normal if towards.0[k] > 0.0 => (-normal).as_vec3(),
+                normal => normal.as_vec3(),
+            };
         }
         found
     }

@@ -15,7 +15,7 @@
 //! - In f32 a value takes seven roundings before the row's steps, and one for each: less than 16 of 2^-24 relative to
 //!   the largest value in the tile: [`SINGLE`].
 
-use super::tile::{HALF, ROWS};
+use super::tile::HALF;
 use glam::DVec3;
 
 const EXACT: f64 = 64.0 / (1u64 << 53) as f64;
@@ -32,7 +32,7 @@ pub(super) struct Sight {
     pub(super) length: f64,
 }
 
-/// Three weights and 1/t. Each is raised by its slack: what is negative is not hit.
+/// Three weights and the nearness 1/t. Each is raised by its slack: what is negative is not hit.
 #[derive(Clone, Copy)]
 pub(super) struct Sheet {
     /// At the middle of the first row.
@@ -45,7 +45,7 @@ pub(super) struct Sheet {
 
 /// What a tile knows of a triangle.
 pub(super) enum Aspect {
-    /// No pixel hits it before 1/t = `least`.
+    /// No pixel hits it, or only where it is less near than `least`.
     Nowhere,
     /// The functions decide.
     Here(Sheet),
@@ -67,7 +67,7 @@ impl Aspect {
         // 1/t may be off by this times d's size for d.n, and by this times a's size, in parts, for D.
         let lost = EXACT * side * side / volume;
         let slack = EXACT * sight.length * side * (away + side);
-        // Not a number where D is zero.
+        // Infinite, or not a number, where D is zero.
         if !(lost * away < SINGLE && slack > 1e-30 && slack < 1e30 && volume > 1e-30 && volume < 1e30) {
             return Self::Unknown;
         }
@@ -82,7 +82,7 @@ impl Aspect {
         let mut sheet = Sheet { at: [0.0; 4], across: [0.0; 4], down: [0.0; 4], sure: 0.0 };
         let mut out = false;
         for (i, [at, across, down]) in values.into_iter().enumerate() {
-            let reach = HALF * (across.abs() + down.abs());
+            let reach = HALF[0] * across.abs() + HALF[1] * down.abs();
             let largest = at.abs() + reach;
             // D's part is less than SINGLE, see above.
             let (slack, lowest) = match i {
@@ -90,7 +90,7 @@ impl Aspect {
                 _ => (slack + SINGLE * largest, 0.0),
             };
             out |= at + reach + slack < lowest;
-            sheet.at[i] = (at + slack - HALF_ROWS * down) as f32;
+            sheet.at[i] = (at + slack - HALF[1] * down) as f32;
             sheet.across[i] = across as f32;
             sheet.down[i] = down as f32;
             if i < 3 {
@@ -101,10 +101,7 @@ impl Aspect {
     }
 }
 
-/// From the middle of a tile to its first row.
-const HALF_ROWS: f64 = 0.5 * (ROWS - 1) as f64;
-
-/// No less than a vector's length.
+/// The sum of the absolute coordinates: no less than a vector's length.
 #[inline(always)]
 fn size(v: DVec3) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()

@@ -1,9 +1,14 @@
 //! Neighbouring pixels share one walk of the tree.
 //!
 //! What is found is what `Surfaces::closest` finds ray by ray, bit by bit. A tile keeps, per pixel, the surface
-//! nearest so far and its 1/t. A surface takes the place if the f32 functions of `sheet` leave no doubt about it;
-//! else the f64 test decides; where two are nearer to each other than [`APART`], or where the f64 test at the end
-//! does not confirm what was found, the pixel goes its own way through the tree.
+//! nearest so far and its nearness 1/t. A surface takes the place if the f32 functions of `sheet` leave no doubt
+//! about it; else the f64 test decides. Where two are closer to each other than [`APART`], or where `finish` does
+//! not confirm what was found, the pixel goes its own way through the tree.
+//!
+//! Why that suffices: no surface that the f64 test finds is passed over unless something that takes its place seems
+//! nearer by twice [`APART`], since `sheet` never takes a surface for farther than it is. Whatever seemed nearest
+//! only gives way to what seems nearer still. So once `finish` has found the last one's nearness right to one
+//! [`APART`], all others are farther by nearly one, in whatever order they came.
 
 use super::camera::{CameraRays, Lines};
 use super::frustum::{Frustum, MISSED};
@@ -13,12 +18,12 @@ use crate::surfaces::{Surfaces, intersect};
 
 /// Rows of a tile; its columns are the lanes.
 pub(super) const ROWS: usize = 8;
-/// From the middle of a tile to the outermost pixel centres, at most.
-pub(super) const HALF: f64 = 0.5 * (if ROWS > LANES { ROWS } else { LANES } - 1) as f64;
+/// From the middle of a tile to its first column, and to its first row.
+pub(super) const HALF: [f64; 2] = [0.5 * (LANES - 1) as f64, 0.5 * (ROWS - 1) as f64];
 /// No surface.
 pub(super) const NONE: u32 = u32::MAX;
-/// Depths in f32 that differ by less, in parts, are equal: well above what the functions of `sheet` lose
-/// where they do not vary much within a tile.
+/// Of nearness, in parts: what differs by less has no order here. Eight times the slack in f32 of a surface whose
+/// nearness does not vary within the tile.
 pub(super) const APART: f32 = 1.0 / (1 << 17) as f32;
 
 /// What is needed for a tile but does not depend on it.
@@ -32,14 +37,14 @@ pub(super) struct Place<'a> {
 
 pub(super) struct Tile {
     pub(super) lines: [Lines; ROWS],
-    /// 1/t of the nearest surface so far, in lengths of the direction; where there is none, of the far plane.
+    /// Nearness of the nearest surface so far, t in lengths of the direction; where there is none, of the far plane.
     pub(super) best: [Eight; ROWS],
     pub(super) slot: [[u32; LANES]; ROWS],
     /// Pixels that go their own way.
     pub(super) doubt: [[bool; LANES]; ROWS],
-    /// 1/t of the near plane, at least: what is nearer than this is looked at in f64.
+    /// Of the near plane, at least: what is nearer than this is looked at in f64.
     near: f32,
-    /// No pixel needs a surface whose 1/t is less.
+    /// No pixel needs a surface less near.
     least: f64,
     sight: Sight,
     frustum: Frustum,
@@ -53,15 +58,14 @@ impl Tile {
         for (row, lines) in lines.iter_mut().enumerate() {
             *lines = camera.lines(x, y + row as u32);
         }
-        let half = [0.5 * (LANES - 1) as f64, 0.5 * (ROWS - 1) as f64];
         let sight = Sight {
             eye: camera.eye,
-            middle: camera.through(f64::from(x) + 0.5 + half[0], f64::from(y) + 0.5 + half[1]),
+            middle: camera.through(f64::from(x) + 0.5 + HALF[0], f64::from(y) + 0.5 + HALF[1]),
             right: camera.right,
             down: camera.down,
             length: camera.longest,
         };
-        let frustum = Frustum::new(camera, &sight, half, f64::from(surfaces.extent));
+        let frustum = Frustum::new(camera, &sight, HALF, f64::from(surfaces.extent));
         let mut best = [Eight::all(f32::INFINITY); ROWS];
         let mut near = f32::INFINITY;
         for row in 0..ROWS {
@@ -137,7 +141,7 @@ impl Tile {
         for k in 0..LANES {
             steps.0[k] = k as f32 - 0.5 * (LANES - 1) as f32;
         }
-        let [mut a, mut b, mut c, mut depth] = [
+        let [mut a, mut b, mut c, mut near] = [
             steps * Eight::all(sheet.across[0]) + Eight::all(sheet.at[0]),
             steps * Eight::all(sheet.across[1]) + Eight::all(sheet.at[1]),
             steps * Eight::all(sheet.across[2]) + Eight::all(sheet.at[2]),
@@ -153,16 +157,16 @@ impl Tile {
         let mut changed = false;
         for row in 0..ROWS {
             let least = a.min(b).min(c);
-            let raised = depth * Eight::all(1.0 + 2.0 * APART);
+            let raised = near * Eight::all(1.0 + 2.0 * APART);
             let hit = least.below(Eight::all(0.0)).or(raised.below(self.best[row])).not();
             if hit.any() {
-                let nearest = self.best[row] * Eight::all(1.0 + 2.0 * APART);
+                let beaten = self.best[row] * Eight::all(1.0 + 2.0 * APART);
                 let sure = Eight::all(sheet.sure)
                     .below(least)
-                    .and(nearest.below(depth))
-                    .and(depth.below(Eight::all(self.near)));
+                    .and(beaten.below(near))
+                    .and(near.below(Eight::all(self.near)));
                 if whole && sure.any() {
-                    self.best[row] = sure.pick(depth, self.best[row]);
+                    self.best[row] = sure.pick(near, self.best[row]);
                     self.slot[row] = sure.pick_words(slot, self.slot[row]);
                     changed = true;
                 }
@@ -171,11 +175,12 @@ impl Tile {
                     changed |= self.settle(surfaces, (row, open.bits()), slot);
                 }
             }
-            (a, b, c, depth) = (a + down[0], b + down[1], c + down[2], depth + down[3]);
+            (a, b, c, near) = (a + down[0], b + down[1], c + down[2], near + down[3]);
         }
         changed
     }
 
+    /// The same in f64.
     #[inline(never)]
     fn all(&mut self, surfaces: &Surfaces, slot: u32) -> bool {
         let mut changed = false;
@@ -193,15 +198,15 @@ impl Tile {
             let line = self.lines[row].line(self.sight.eye, k);
             let Some((distance, along)) = intersect(&line, surfaces.corners_f64(slot)) else { continue };
             if distance >= line.range[0] && distance < line.range[1] && surfaces.is_there(slot, along) {
-                let depth = (self.lines[row].length.0[k] / distance) as f32;
+                let near = (self.lines[row].length.0[k] / distance) as f32;
                 let best = self.best[row].0[k];
-                // No surface may be so near as to be infinitely so.
-                self.doubt[row][k] |= depth.is_infinite();
-                if self.slot[row][k] == NONE || depth > best * (1.0 + 3.0 * APART) {
-                    self.best[row].0[k] = depth.max(best);
+                // At the eye all surfaces are alike.
+                self.doubt[row][k] |= near.is_infinite();
+                if self.slot[row][k] == NONE || near > best * (1.0 + 3.0 * APART) {
+                    self.best[row].0[k] = near.max(best);
                     self.slot[row][k] = slot;
                     changed = true;
-                } else if depth >= best * (1.0 - 3.0 * APART) {
+                } else if near >= best * (1.0 - 3.0 * APART) {
                     self.doubt[row][k] = true;
                 }
             }
