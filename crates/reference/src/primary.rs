@@ -1,7 +1,17 @@
 //! Camera rays: what is seen through the pixel centres.
 
-use crate::{Tracer, surfaces::Hit, surfaces::Line};
-use glam::{DMat4, DVec3, DVec4, Vec3};
+mod bands;
+mod camera;
+mod finish;
+mod frustum;
+mod sheet;
+mod tile;
+mod wide;
+
+use crate::{Tracer, surfaces::Hit};
+use bands::Hits;
+pub(crate) use camera::CameraRays;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use umbrage_frame::{Gbuffer, Image, View};
 
@@ -50,20 +60,25 @@ impl Tracer {
     /// The closest hits through the pixel centres, between the view's near and far planes.
     pub fn primary(&self, view: &View) -> PrimaryHits {
         let camera = CameraRays::new(view);
-        let rows: Vec<Vec<Seen>> = (0..view.height)
-            .into_par_iter()
-            .map(|y| (0..view.width).map(|x| self.seen(&camera, x, y)).collect())
-            .collect();
-        let seen: Vec<Seen> = rows.into_iter().flatten().collect();
+        let pixels = view.width as usize * view.height as usize;
+        let mut hits = Hits {
+            depth: vec![0.0; pixels],
+            position: bytemuck::zeroed_vec(pixels),
+            normal: bytemuck::zeroed_vec(pixels),
+            triangle: vec![0; pixels],
+            material: vec![0; pixels],
+        };
+        bands::fill(self, &camera, [view.width, view.height], &mut hits);
+        let (width, height) = (view.width, view.height);
         PrimaryHits {
             gbuffer: Gbuffer {
                 view: *view,
-                depth: image(view, &seen, |s| s.depth),
-                position: image(view, &seen, |s| s.position),
-                normal: image(view, &seen, |s| s.normal),
+                depth: Image::from_pixels(width, height, hits.depth),
+                position: Image::from_pixels(width, height, hits.position),
+                normal: Image::from_pixels(width, height, hits.normal),
             },
-            triangle: image(view, &seen, |s| s.triangle),
-            material: image(view, &seen, |s| s.material),
+            triangle: Image::from_pixels(width, height, hits.triangle),
+            material: Image::from_pixels(width, height, hits.material),
         }
     }
 
@@ -82,6 +97,7 @@ impl Tracer {
         (seen.iter().map(|s| s.depth).collect(), points)
     }
 
+    /// Through one pixel: what the tiles must equal.
     fn seen(&self, camera: &CameraRays, x: u32, y: u32) -> Seen {
         let line = camera.line(x, y);
         let Some(hit) = self.surfaces.closest(&line, |_, _| false) else { return NOTHING };
@@ -131,64 +147,5 @@ impl Points {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
-    }
-}
-
-fn image<T>(view: &View, seen: &[Seen], pick: impl Fn(&Seen) -> T) -> Image<T> {
-    Image::from_pixels(view.width, view.height, seen.iter().map(pick).collect())
-}
-
-/// A view's rays, in f64.
-pub(crate) struct CameraRays {
-    eye: DVec3,
-    /// Direction of the top left corner, and of one pixel to the right and one down.
-    corner: DVec3,
-    right: DVec3,
-    down: DVec3,
-    forward: DVec3,
-    clip_from_world: DMat4,
-}
-
-impl CameraRays {
-    pub(crate) fn new(view: &View) -> Self {
-        let world_from_camera = view.camera_from_world.as_dmat4().inverse();
-        let tan = (0.5 * f64::from(view.yfov_radians)).tan();
-        let pixel = 2.0 * tan / f64::from(view.height.max(1));
-        let (width, height) = (f64::from(view.width), f64::from(view.height));
-        let corner = DVec3::new(-0.5 * width * pixel, 0.5 * height * pixel, -1.0);
-        Self {
-            eye: world_from_camera.w_axis.truncate(),
-            corner: world_from_camera.transform_vector3(corner),
-            right: world_from_camera.transform_vector3(DVec3::X * pixel),
-            down: world_from_camera.transform_vector3(DVec3::NEG_Y * pixel),
-            forward: world_from_camera.transform_vector3(DVec3::NEG_Z).normalize(),
-            clip_from_world: view.clip_from_world.as_dmat4(),
-        }
-    }
-
-    /// Through the centre of a pixel, from the near plane to the far plane.
-    pub(crate) fn line(&self, x: u32, y: u32) -> Line {
-        let through = self.corner + self.right * (f64::from(x) + 0.5) + self.down * (f64::from(y) + 0.5);
-        let direction = through.normalize();
-        Line { origin: self.eye, direction, range: self.range(direction) }
-    }
-
-    /// Linear depth per distance along a direction.
-    fn cos(&self, direction: DVec3) -> f64 {
-        self.forward.dot(direction)
-    }
-
-    /// Distances at which clip depth is 0 (z = 0) and 1 (z = w); both are linear along a ray.
-    fn range(&self, direction: DVec3) -> [f64; 2] {
-        let at_eye = self.clip_from_world * self.eye.extend(1.0);
-        let along = self.clip_from_world * direction.extend(0.0);
-        let zero = |at: f64, along: f64| -at / along;
-        let beyond = |v: DVec4| v.w - v.z;
-        let near = zero(at_eye.z, along.z);
-        let far = zero(beyond(at_eye), beyond(along));
-        // A matrix without a near or a far plane has no zero there.
-        let near = if near.is_finite() { near.max(0.0) } else { 0.0 };
-        let far = if far.is_finite() && far > near { far } else { f64::INFINITY };
-        [near, far]
     }
 }

@@ -12,7 +12,7 @@ use umbrage_scene::Scene;
 
 /// obvhs prunes boxes in f32 (six roundings of 2^-24 a slab): a ray's end is put this much farther
 /// for boxes, so that only the f64 triangle test decides.
-const BOX_END: f64 = 1.0 + 1e-6;
+pub(crate) const BOX_END: f64 = 1.0 + 1e-6;
 
 /// All triangles of a scene in the order of a tree's leaves.
 pub(crate) struct Surfaces {
@@ -88,7 +88,7 @@ impl Surfaces {
     }
 
     /// Whether a triangle is there, so far along its sides.
-    fn is_there(&self, slot: u32, along: [f64; 2]) -> bool {
+    pub(crate) fn is_there(&self, slot: u32, along: [f64; 2]) -> bool {
         self.cutouts.as_ref().is_none_or(|cutouts| cutouts.is_there(slot, along))
     }
 
@@ -148,7 +148,7 @@ impl Line {
 
 /// Distance along a line to a triangle, either side, and how far along the triangle's first and second
 /// sides (Möller and Trumbore 1997, in f64).
-fn intersect(line: &Line, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f64; 2])> {
+pub(crate) fn intersect(line: &Line, [a, b, c]: [DVec3; 3]) -> Option<(f64, [f64; 2])> {
     let (ab, ac) = (b - a, c - a);
     let p = line.direction.cross(ac);
     let determinant = ab.dot(p);

@@ -190,6 +190,26 @@ impl Mask {
         Eight(out)
     }
 
+    /// Whether any lane is set.
+    #[inline(always)]
+    pub(crate) fn any(self) -> bool {
+        let mut all = 0;
+        for k in 0..LANES {
+            all |= self.0[k];
+        }
+        all != 0
+    }
+
+    /// `yes` where the lane is set, `no` elsewhere.
+    #[inline(always)]
+    pub(crate) fn pick_words(self, yes: u32, no: [u32; LANES]) -> [u32; LANES] {
+        let mut out = [0; LANES];
+        for k in 0..LANES {
+            out[k] = if self.0[k] != 0 { yes } else { no[k] };
+        }
+        out
+    }
+
     /// A bit for each lane.
     #[inline(always)]
     pub(crate) fn bits(self) -> u32 {

@@ -30,6 +30,7 @@ use crate::owen::mix;
 use crate::receiver::Receiver;
 use crate::samples::seed;
 use crate::truth::{MOST_ON_SCANLINES, PointTruth, Sight, Task};
+pub(crate) use eight::{Eight, LANES};
 pub(crate) use frame::Frame;
 pub(crate) use groups::spread;
 use groups::{Desk, Find, find};

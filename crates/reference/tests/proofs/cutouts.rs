@@ -2,6 +2,7 @@
 
 use crate::agreement::{assert_ties_only, differences, lights};
 use crate::common::*;
+use crate::primary::assert_rays;
 use glam::{Vec2, Vec3};
 use umbrage_reference::{GroundTruth, Method, Points, Tracer};
 use umbrage_scene::{AlphaMask, AreaLight, Material, Scene, Wrap};
@@ -167,6 +168,15 @@ fn the_ways_to_the_truth_agree_on_a_tree() {
                 count <= points.len() / 100 && worst <= Some(&3),
                 "{pair:?}: {count} differ, by up to {worst:?}"
             );
+        }
+    }
+}
+
+#[test]
+fn tiles_equal_rays_through_leaves() {
+    for scene in [leafy(checker(8)), leafy(checker(61))] {
+        for (eye, size) in [(Vec3::new(0.0, 3.0, 8.0), [64, 40]), (Vec3::new(0.5, 1.5, 0.2), [61, 37])] {
+            assert!(assert_rays(&scene, &view(eye, Vec3::ZERO, size)) > 0);
         }
     }
 }

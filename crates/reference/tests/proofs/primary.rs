@@ -2,8 +2,9 @@
 
 use crate::common::*;
 use glam::{Vec2, Vec3};
-use umbrage_frame::Anchors;
+use umbrage_frame::{Anchors, View};
 use umbrage_reference::Tracer;
+use umbrage_scene::{Camera, Scene};
 
 fn soup() -> Vec<[Vec3; 3]> {
     let mut random = Random(6);
@@ -87,4 +88,106 @@ fn nothing_to_see() {
     let tracer = Tracer::new(&scene(&floor(1.0))).expect("a scene");
     let hits = tracer.primary(&view(Vec3::Y, Vec3::Y * 9.0, [4, 4]));
     assert!(hits.points().is_empty() && hits.triangle.pixels().iter().all(|&t| t == u32::MAX));
+}
+
+/// Bit by bit what each pixel's ray finds on its own.
+pub(crate) fn assert_rays(scene: &Scene, view: &View) -> usize {
+    let tracer = Tracer::new(scene).expect("a scene");
+    let hits = tracer.primary(view);
+    let pixels: Vec<u32> = (0..view.width * view.height).collect();
+    let (depth, points) = tracer.primary_some(view, &pixels);
+    let bits = |depth: &[f32]| depth.iter().map(|d| d.to_bits()).collect::<Vec<_>>();
+    let bits_of = |v: &[Vec3]| v.iter().map(|v| v.to_array().map(f32::to_bits)).collect::<Vec<_>>();
+    let found = hits.points();
+    assert_eq!(bits(hits.gbuffer.depth.pixels()), bits(&depth));
+    assert_eq!(found.triangle, points.triangle);
+    assert_eq!(bits_of(&found.position), bits_of(&points.position));
+    assert_eq!(bits_of(&found.normal), bits_of(&points.normal));
+    for (&triangle, &material) in hits.triangle.pixels().iter().zip(hits.material.pixels()) {
+        assert_eq!(material, scene.geometry.material.get(triangle as usize).copied().unwrap_or(u32::MAX));
+    }
+    points.len()
+}
+
+/// Sizes that are none of a whole number of tiles, and some that are.
+const SIZES: [[u32; 2]; 5] = [[64, 40], [61, 37], [9, 100], [100, 1], [7, 5]];
+
+#[test]
+fn tiles_equal_rays_in_a_soup() {
+    let scene = scene(&soup());
+    for size in SIZES {
+        assert_rays(&scene, &view(Vec3::new(1.0, 2.0, 9.0), Vec3::ZERO, size));
+        // From within.
+        assert!(assert_rays(&scene, &view(Vec3::new(0.2, 0.1, -0.3), Vec3::X, size)) > 0);
+        assert_eq!(assert_rays(&scene, &view(Vec3::Z * 9.0, Vec3::Z * 20.0, size)), 0);
+    }
+    // More triangles than a picture of this size has use for.
+    assert_rays(&scene, &view(Vec3::new(1.0, 2.0, 9.0), Vec3::ZERO, [4, 3]));
+}
+
+/// Both planes cut through triangles, which stand beside and behind the eye too.
+#[test]
+fn tiles_equal_rays_between_the_planes() {
+    let scene = scene(&soup());
+    let mut random = Random(41);
+    for _ in 0..30 {
+        let (eye, target) = (random.vector() * 3.0, random.vector());
+        let near = 0.2 + random.unit();
+        let camera = Camera::look_at(eye, target, 80f32.to_radians(), near, near + 2.0 * random.unit());
+        assert_rays(&scene, &view_of(&camera, [61, 37]));
+    }
+}
+
+/// Where rays run along planes, edges meet pixel centres and surfaces lie on each other, tiles have doubts.
+#[test]
+fn tiles_equal_rays_where_surfaces_meet() {
+    let mut triangles = strewn_blocks();
+    triangles.extend(block(Vec3::new(0.0, 1.0, 0.0), Vec3::new(1.0, 0.5, 1.0)));
+    // On the floor, on a block, and on themselves.
+    triangles.extend(block(Vec3::new(0.5, 0.5, 0.0), Vec3::new(1.0, 0.5, 0.5)));
+    triangles.extend_from_within(..40);
+    // No area.
+    triangles.extend([[Vec3::ZERO, Vec3::Y, Vec3::Y * 2.0], [Vec3::Y; 3]]);
+    let scene = scene(&triangles);
+    let views = [
+        ([0.0, 1.0, 6.0], [0.0, 1.0, 0.0]),
+        ([0.0, 0.0, 6.0], [0.0, 0.0, 0.0]),
+        ([0.0, 1.5, 6.0], [0.0, 1.5, 0.0]),
+        ([1.0, 1.5, 6.0], [1.0, 1.5, 0.0]),
+        ([0.0, 8.0, 0.01], [0.0, 0.0, 0.0]),
+        ([3.0, 3.0, 3.0], [0.0, 0.0, 0.0]),
+    ];
+    for ((eye, target), size) in views.into_iter().flat_map(|v| SIZES.map(|size| (v, size))) {
+        assert_rays(&scene, &view(eye.into(), target.into(), size));
+    }
+}
+
+#[test]
+fn tiles_equal_rays_in_a_scene() {
+    let scene = Scene::builtin("colonnade").expect("a built-in scene");
+    for path in &scene.paths {
+        let frame = &path.frames[path.frames.len() / 2];
+        assert!(assert_rays(&scene, &view_of(&frame.camera, [203, 117])) > 0);
+    }
+}
+
+/// The numbers leave f32's range, or all but.
+#[test]
+fn tiles_equal_rays_at_any_scale() {
+    for scale in [1e-9, 1e-5, 1e6, 1e10] {
+        let scene = scene(&soup().into_iter().map(|t| t.map(|v| v * scale)).collect::<Vec<_>>());
+        let eye = Vec3::new(1.0, 2.0, 9.0) * scale;
+        let camera = Camera::look_at(eye, Vec3::ZERO, 1.0, 0.05 * scale, 500.0 * scale);
+        assert!(assert_rays(&scene, &view_of(&camera, [61, 37])) > 0, "{scale}");
+    }
+}
+
+/// f32 coordinates far from the origin, of the eye and of the triangles.
+#[test]
+fn tiles_equal_rays_far_away() {
+    let place = Vec3::new(3e4, -1e4, 2e4);
+    let scene = scene(&soup().into_iter().map(|t| t.map(|v| v + place)).collect::<Vec<_>>());
+    for direction in [Vec3::X, Vec3::Y + Vec3::Z * 0.01, Vec3::ONE] {
+        assert!(assert_rays(&scene, &view(place + direction * 9.0, place, [61, 37])) > 0);
+    }
 }
