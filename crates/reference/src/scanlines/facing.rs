@@ -259,11 +259,11 @@ impl Standpoint {
         let behind = plane.below(Eight::all(0.0));
         let mut nearer = nearer;
         if let Some([middle, u, v]) = self.light {
-            // Or its plane has the receivers on one side and all of the light on the other.
+            // Or its plane has all receivers on one side and all of the light on the other.
             let (u, v) = (dot(u, &normal).abs(), dot(v, &normal).abs());
             let beyond = (dot(middle, &normal) - plane).signed_as(plane) - u - v;
             let size = dot(middle.abs(), &abs(&normal)) + plane.abs() + off + u + v;
-            nearer = nearer.or((size * Eight::all(4.0 * LIGHT_GAP as f32)).below(beyond));
+            nearer = nearer.or((size * Eight::all(4.0 * LIGHT_GAP as f32)).below(beyond).and(sided));
         }
         let nearer = nearer.bits();
         let never = out.or(below).bits();
