@@ -62,8 +62,8 @@ impl Mates {
             from < to
         };
         let mut pair = |a: u32, b: u32, opposite: bool| {
-            mates[a as usize / 3][a as usize % 3] = b / 3 << 1 | u32::from(opposite);
-            mates[b as usize / 3][b as usize % 3] = a / 3 << 1 | u32::from(opposite);
+            mates[a as usize / 3][a as usize % 3] = (b / 3) << 1 | u32::from(opposite);
+            mates[b as usize / 3][b as usize % 3] = (a / 3) << 1 | u32::from(opposite);
         };
         for range in start.windows(2) {
             let list = &mut entries[range[0] as usize..range[1] as usize];

@@ -26,9 +26,14 @@ const TOGETHER: usize = 64;
 
 /// A list is made shorter for each half of the receivers while they are more than this, and it has more blocks of
 /// eight triangles than that.
-const FEW: usize = 8;
-const MANY: usize = 24;
-const SIMPLE: usize = 6;
+const FEW: usize = 16;
+const SIMPLE: usize = 32;
+
+/// Beyond that many receivers it is made shorter again even if the last time did not help.
+const MANY: usize = 32;
+
+/// Parts of fewer receivers are not asked whether one patch hides the light from all of them.
+const WORTH_ASKING: usize = 8;
 
 /// Normals that differ by more in a coordinate are told apart before places.
 const TURNED: f64 = 0.5;
@@ -87,6 +92,9 @@ impl Desk {
     }
 }
 
+/// What is found at a receiver from which all of the light is hidden.
+pub(super) type Hidden<T> = fn(&Task, &Receiver, &Desk) -> T;
+
 /// Something that is found at each receiver.
 pub(super) trait Find {
     type Found: Copy + Send + Sync;
@@ -95,7 +103,7 @@ pub(super) trait Find {
     const BELOW: Self::Found;
 
     /// What is found where all of the light is hidden, if that can be told without its samples.
-    const HIDDEN: Option<fn(&Task, &Receiver, &Desk) -> Self::Found> = None;
+    const HIDDEN: Option<Hidden<Self::Found>> = None;
 
     /// At one receiver, of whose group the candidates are on the desk. `last` is the block that hid the light
     /// from the neighbour.
@@ -174,6 +182,7 @@ impl<F: Find> WithSimd for Group<'_, F> {
             let standpoint = if rays { None } else { Standpoint::new(task.light, part) };
             if let (Some(standpoint), Some(hidden)) = (&standpoint, F::HIDDEN)
                 && let Some(aim) = standpoint.aim(task.light)
+                && (depth == 0 || range.len() >= WORTH_ASKING)
                 && desk.shade.hides(surfaces, standpoint, &aim)
             {
                 for placed in &receivers[range] {

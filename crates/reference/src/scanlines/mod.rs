@@ -33,7 +33,7 @@ use crate::truth::{MOST_ON_SCANLINES, PointTruth, Sight, Task};
 pub(crate) use eight::{Eight, LANES};
 pub(crate) use frame::Frame;
 pub(crate) use groups::spread;
-use groups::{Desk, Find, find};
+use groups::{Desk, Find, Hidden, find};
 use lines::{Lines, REPLICATES};
 pub(crate) use lines::{Ruling, STEP};
 use look::look;
@@ -83,7 +83,7 @@ impl Find for Looking {
 
     const BELOW: PointTruth = PointTruth::exact(0.0, false);
 
-    const HIDDEN: Option<fn(&Task, &Receiver, &Desk) -> PointTruth> = Some(|task, receiver, desk| {
+    const HIDDEN: Option<Hidden<PointTruth>> = Some(|task, receiver, desk| {
         let elevation = desk.aim(task.light, receiver).map(|aim| aim.elevation(receiver.normal));
         PointTruth::exact(0.0, elevation == Some(Elevation::Above))
     });

@@ -152,18 +152,17 @@ impl Patches {
             self.work.candidates[i].owner = self.work.candidates[root].owner;
         }
         self.patches = patches as usize;
-        let mut open = 0;
-        for candidate in self.work.candidates.iter_mut().filter(|c| c.side == 0) {
-            candidate.owner = patches + open;
+        let open = self.work.candidates.iter_mut().filter(|c| c.side == 0);
+        for (open, candidate) in open.enumerate() {
+            candidate.owner = patches + open as u32;
             self.open.push(candidate.slot, &candidate.corners);
-            let lane = open as usize % LANES;
+            let lane = open % LANES;
             if lane == 0 {
                 self.clear.push(0);
             }
             if let Some(last) = self.clear.last_mut() {
                 *last |= u32::from(candidate.clear) << lane;
             }
-            open += 1;
         }
         self.sides.clear();
         self.sides.resize(self.patches + self.open.blocks.len() * LANES, 1);
@@ -428,5 +427,5 @@ impl Work {
 /// Where a slot is looked for first (Knuth's multiplicative hash).
 #[inline(always)]
 fn spot(slot: u32, size: usize) -> usize {
-    (u64::from(slot.wrapping_mul(0x9e37_79b9)) * size as u64 >> 32) as usize
+    ((u64::from(slot.wrapping_mul(0x9e37_79b9)) * size as u64) >> 32) as usize
 }
