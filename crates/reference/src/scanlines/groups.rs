@@ -13,6 +13,7 @@ use crate::Points;
 use crate::aim::{Aim, Elevation};
 use crate::receiver::Receiver;
 use crate::samples::LightSamples;
+use crate::surfaces::Surfaces;
 use crate::truth::{Method, Scratch, Task};
 use glam::{DVec3, Vec3};
 use pulp::{Arch, Simd, WithSimd};
@@ -195,11 +196,7 @@ impl<F: Find> WithSimd for Group<'_, F> {
                 if desk.lists.len() <= depth {
                     desk.lists.resize_with(depth + 1, Blocks::default);
                 }
-                if depth == 0 {
-                    volume.gather(surfaces, (&mut desk.open, &mut desk.lists[0], &mut desk.cards));
-                } else if let [.., from, into] = &mut desk.lists[..=depth] {
-                    volume.filter(from, into);
-                }
+                Arch::new().dispatch(List { surfaces, volume: &volume, desk, depth });
                 let candidates = desk.lists[depth].blocks.len();
                 let shrinks = depth == 0
                     || 4 * candidates < 3 * desk.lists[depth - 1].blocks.len()
@@ -212,8 +209,7 @@ impl<F: Find> WithSimd for Group<'_, F> {
                         continue;
                     }
                 }
-                desk.patches.sort(surfaces, standpoint.as_ref(), (&desk.lists[depth], &mut desk.blocks));
-                desk.blocks.close();
+                Arch::new().dispatch(Sort { surfaces, standpoint: standpoint.as_ref(), desk, depth });
             }
             let mut last = 0;
             for placed in &receivers[range] {
@@ -221,6 +217,47 @@ impl<F: Find> WithSimd for Group<'_, F> {
                 found[placed.at as usize] = F::find(task, rulings, point, desk, &mut last);
             }
         }
+    }
+}
+
+/// Lists what is before the receivers of a part. Compiled for wide registers by itself, as the next.
+struct List<'a> {
+    surfaces: &'a Surfaces,
+    volume: &'a Volume,
+    desk: &'a mut Desk,
+    depth: usize,
+}
+
+impl WithSimd for List<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { surfaces, volume, desk, depth } = self;
+        if depth == 0 {
+            volume.gather(surfaces, (&mut desk.open, &mut desk.lists[0], &mut desk.cards));
+        } else if let [.., from, into] = &mut desk.lists[..=depth] {
+            volume.filter(from, into);
+        }
+    }
+}
+
+/// Makes patches of a list.
+struct Sort<'a> {
+    surfaces: &'a Surfaces,
+    standpoint: Option<&'a Standpoint>,
+    desk: &'a mut Desk,
+    depth: usize,
+}
+
+impl WithSimd for Sort<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { surfaces, standpoint, desk, depth } = self;
+        desk.patches.sort(surfaces, standpoint, (&desk.lists[depth], &mut desk.blocks));
+        desk.blocks.close();
     }
 }
 

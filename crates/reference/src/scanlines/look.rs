@@ -14,11 +14,10 @@ use crate::rays;
 use crate::receiver::Receiver;
 use crate::samples::LightSamples;
 use crate::truth::{Method, Sight, Task};
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 /// Covers what is hidden. Lit and hidden are exact: nothing is between, or one triangle is before the
 /// whole light.
-#[inline(always)]
 pub(super) fn look(
     task: &Task,
     (receiver, aim): (&Receiver, &Aim),
@@ -27,11 +26,35 @@ pub(super) fn look(
     desk: &mut Desk,
     last: &mut usize,
 ) -> Sight {
-    let sight = past_whole(task, (receiver, aim), (frame, turn), (ruling, seed), desk, last);
+    let sight =
+        Arch::new().dispatch(Look { task, receiver, aim, frame, turn, ruling, seed, desk: &mut *desk, last });
     match &task.tracer.surfaces.cutouts {
         Some(cutouts) if !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => Arch::new()
             .dispatch(Veil { task, cutouts, receiver, aim, frame, turn, ruling, seed, desk, sight }),
         _ => sight,
+    }
+}
+
+/// At surfaces that are whole. Compiled for wide registers by itself.
+struct Look<'a> {
+    task: &'a Task<'a>,
+    receiver: &'a Receiver,
+    aim: &'a Aim,
+    frame: &'a Frame,
+    turn: &'a Turn,
+    ruling: &'a Ruling,
+    seed: u64,
+    desk: &'a mut Desk,
+    last: &'a mut usize,
+}
+
+impl WithSimd for Look<'_> {
+    type Output = Sight;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Sight {
+        let Self { task, receiver, aim, frame, turn, ruling, seed, desk, last } = self;
+        past_whole(task, (receiver, aim), (frame, turn), (ruling, seed), desk, last)
     }
 }
 

@@ -3,7 +3,7 @@
 //!
 //! Samples stand on parallel lines across the light, so that a triangle covers one run of bits of
 //! each line. Receivers that are near each other share one walk of the tree. A receiver's result is
-//! a function of its place alone: a longer list of candidates covers the same bits.
+//! a function of its place alone, but for ties on edges: a longer list of candidates covers the same bits.
 #![expect(clippy::needless_range_loop, reason = "a lane is an index into several arrays at once")]
 
 mod blocks;

@@ -11,6 +11,7 @@ use crate::aim::{Aim, Outline};
 use crate::rays::LIGHT_GAP;
 use crate::surfaces::{Line, Surfaces};
 use glam::{DVec3, Vec3};
+use pulp::{Arch, Simd, WithSimd};
 
 /// Triangles of a patch, at most, and triangles on the ray that are tried.
 const LARGEST: usize = 48;
@@ -43,8 +44,25 @@ struct Pyramids {
     size: Eight,
 }
 
-impl Shade {
+/// Compiled for wide registers by itself.
+struct Spread<'a> {
+    shade: &'a mut Shade,
+    surfaces: &'a Surfaces,
+    standpoint: &'a Standpoint,
+    pyramids: &'a Pyramids,
+    seed: u32,
+}
+
+impl WithSimd for Spread<'_> {
+    type Output = bool;
+
     #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> bool {
+        self.shade.spread(self.surfaces, self.standpoint, self.pyramids, self.seed)
+    }
+}
+
+impl Shade {
     pub(super) fn hides(&mut self, surfaces: &Surfaces, standpoint: &Standpoint, aim: &Aim) -> bool {
         let middle = standpoint.centre().as_dvec3();
         let length = aim.axis.length();
@@ -55,7 +73,7 @@ impl Shade {
         for i in 0..self.patch.len().min(LANES) {
             let slot = self.patch[i];
             if surfaces.crosses(&line, slot) {
-                if self.spread(surfaces, standpoint, &pyramids, slot) {
+                if self.spread_wide(surfaces, standpoint, &pyramids, slot) {
                     return true;
                 }
                 break;
@@ -69,11 +87,21 @@ impl Shade {
         });
         hits.sort_unstable_by(|a, b| b.1.total_cmp(&a.1));
         for i in 0..self.hits.len().min(TRIED) {
-            if self.spread(surfaces, standpoint, &pyramids, self.hits[i].0) {
+            if self.spread_wide(surfaces, standpoint, &pyramids, self.hits[i].0) {
                 return true;
             }
         }
         false
+    }
+
+    fn spread_wide(
+        &mut self,
+        surfaces: &Surfaces,
+        standpoint: &Standpoint,
+        pyramids: &Pyramids,
+        seed: u32,
+    ) -> bool {
+        Arch::new().dispatch(Spread { shade: self, surfaces, standpoint, pyramids, seed })
     }
 
     /// Grows a patch from one triangle.
