@@ -192,3 +192,26 @@ fn a_flat_light_seen_all_but_edge_on() {
     // roundings: up to a sample of each of the eight replicates' rows along an edge.
     assert!(worst <= 8, "up to {worst} of 256 samples differ");
 }
+
+/// More layers than a byte counts, with all their edges across the light. Each of the 300 edges may tie at one point in
+/// 8,000, as in `assert_ties_only`: at one in 26 in all.
+#[test]
+fn hundreds_of_layers() {
+    let mut triangles = floor(20.0).to_vec();
+    for layer in 0..300 {
+        let (y, x) = (1.5 + 0.004 * layer as f32, 0.001 * layer as f32);
+        let corner = |x: f32, z: f32| Vec3::new(x, y, z);
+        let [a, b, c, d] = [corner(-6.0, -6.0), corner(x, -6.0), corner(x + 0.3, 6.0), corner(-6.0, 6.0)];
+        triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let points = tracer.primary(&view(Vec3::new(0.0, 1.2, 8.0), Vec3::ZERO, [96, 54])).points();
+    for light in lights() {
+        let pair = both(&tracer, &points, &light, PAIRS[1]);
+        let differing = differences(&pair);
+        let count = differing.iter().filter(|&&d| d > 0).count();
+        let worst = differing.iter().max().copied().unwrap_or(0);
+        assert!(pair[0].mean.iter().any(|&m| m > 0.1 && m < 0.9), "{light:?}: no penumbra");
+        assert!(count <= points.len() / 26 && worst <= 3, "{light:?}: {count} differ, by up to {worst}");
+    }
+}
