@@ -84,7 +84,8 @@ impl Blocks {
         self.filled = 0;
     }
 
-    pub(crate) fn push(&mut self, slot: u32, corners: &[Vec3; 3]) {
+    /// Returns the lane.
+    pub(crate) fn push(&mut self, slot: u32, corners: &[Vec3; 3]) -> usize {
         let lane = self.filled % LANES;
         if lane == 0 {
             let corners = corners.map(|c| c.to_array().map(Eight::all));
@@ -100,6 +101,7 @@ impl Blocks {
             block.used |= 1 << lane;
         }
         self.filled += 1;
+        lane
     }
 
     /// Puts boxes around the blocks.

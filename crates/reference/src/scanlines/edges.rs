@@ -1,6 +1,7 @@
 //! Edges in eights, and what a receiver sees of them.
 
 use super::blocks::edge;
+use super::candidates::Edge;
 use super::eight::{Eight, LANES, bytes};
 use super::frame::Frame;
 use super::outline::MARGIN;
@@ -22,6 +23,13 @@ pub(super) struct Edges {
     pub(super) open: u32,
 }
 
+/// Edges in eights.
+#[derive(Default)]
+pub(super) struct EdgeList {
+    pub(super) blocks: Vec<Edges>,
+    filled: usize,
+}
+
 /// Eight edges from one receiver, in the light's coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
@@ -37,38 +45,42 @@ pub(super) struct Seen {
     pub(super) rising: u32,
 }
 
+impl EdgeList {
+    pub(super) fn clear(&mut self) {
+        self.blocks.clear();
+        self.filled = 0;
+    }
+
+    pub(super) fn push(&mut self, edge: &Edge) {
+        let lane = self.filled % LANES;
+        if lane == 0 {
+            self.blocks.push(Edges::default());
+        }
+        if let Some(last) = self.blocks.last_mut() {
+            last.set(lane, edge);
+        }
+        self.filled += 1;
+    }
+}
+
 impl Edges {
-    pub(super) fn set(
-        &mut self,
-        lane: usize,
-        [from, to]: [Vec3; 2],
-        owners: [u32; 2],
-        sides: [i8; 2],
-        open: bool,
-    ) {
+    fn set(&mut self, lane: usize, edge: &Edge) {
+        let [from, to] = edge.ends;
         for axis in 0..3 {
             self.from[axis].0[lane] = from[axis];
             self.to[axis].0[lane] = to[axis];
         }
         for i in 0..2 {
-            self.owners[i][lane] = owners[i];
-            self.sides[i][lane] = sides[i];
+            self.owners[i][lane] = edge.owners[i];
+            self.sides[i][lane] = edge.sides[i];
         }
-        self.weight[lane] = sides[0] + sides[1];
+        self.weight[lane] = edge.sides[0] + edge.sides[1];
         self.used |= 1 << lane;
-        self.open |= u32::from(open) << lane;
+        self.open |= u32::from(edge.open) << lane;
     }
 
-    /// One edge again, with one of its owners.
-    pub(super) fn copy(&mut self, lane: usize, other: &Self, from: usize, owner: usize) {
-        for axis in 0..3 {
-            self.from[axis].0[lane] = other.from[axis].0[from];
-            self.to[axis].0[lane] = other.to[axis].0[from];
-        }
-        self.owners[0][lane] = other.owners[owner][from];
-        self.sides[0][lane] = other.sides[owner][from];
-        self.weight[lane] = self.sides[0][lane];
-        self.used |= 1 << lane;
+    pub(super) fn ends(&self, lane: usize) -> [Vec3; 2] {
+        [&self.from, &self.to].map(|end| Vec3::new(end[0].0[lane], end[1].0[lane], end[2].0[lane]))
     }
 
     #[inline(always)]

@@ -3,6 +3,7 @@
 //! Bounds are f32 with every rounding counted; what is not sure is asked again at each receiver.
 
 use super::blocks::Block;
+use super::clip::{Clip, upright};
 use super::eight::{Eight, Mask, bytes};
 use super::groups::Placed;
 use crate::aim::{Aim, Distance, Spread};
@@ -13,13 +14,7 @@ use umbrage_scene::AreaLight;
 
 /// f32 rounds by 2^-24 each time: what a height of a few dozen operations may be off by, for each metre of what
 /// it was made of.
-const ROUNDING: f32 = 4e-6;
-
-/// How far before the receivers triangles are cut, in halves of their box.
-const CLIP: f64 = 0.2;
-
-/// Ways to the light longer than this over their depth are too flat for that.
-const STEEPEST: f64 = 8.0;
+pub(super) const ROUNDING: f32 = 4e-6;
 
 /// Where the receivers of a group are, and how the light lies to them.
 pub(super) struct Standpoint {
@@ -35,20 +30,9 @@ pub(super) struct Standpoint {
     far: Far,
     /// A flat light's centre from the group's, and its axes.
     light: Option<[Vec3; 3]>,
-    /// The plane parallel to the light before which triangles are cut.
     clip: Option<Clip>,
-    /// From a receiver to where its view meets that plane, and half of the box around such ways.
-    drift: [Vec3; 2],
     /// The normal that all share, if they do, and the lowest place along it.
     shared: Option<(DVec3, f64)>,
-}
-
-/// Before a plane: from the group's centre, along a unit vector.
-#[derive(Clone, Copy)]
-pub(super) struct Clip {
-    axis: DVec3,
-    height: f64,
-    centre: DVec3,
 }
 
 /// Between which depths a triangle surely stands before the light.
@@ -70,7 +54,7 @@ pub(super) struct Sure {
     pub(super) nearer: u32,
     /// Surely not the receiver's own, in its plane or below its horizon.
     pub(super) clear: u32,
-    /// All receivers are on one side of its plane, with all that is before them up to `Standpoint::clip`; on which.
+    /// All receivers are on one side of its plane, with all that is before them up to where triangles are cut; on which.
     pub(super) sided: u32,
     pub(super) behind: u32,
     /// Hides nothing from any receiver.
@@ -102,14 +86,13 @@ impl Standpoint {
         let aim = Aim::new(light, &middle)?;
         let mut far = match aim.spread {
             Spread::Cone { distance: Distance::Infinite, .. } => {
-                let axis = aim.axis.normalize();
+                let axis = upright(&aim);
                 let [lowest, highest] = reach(axis).map(|t| t as f32);
                 let (range, out) = ([highest, f32::INFINITY], [lowest, f32::INFINITY]);
                 Far::Plane { axis: axis.as_vec3(), range, out }
             }
             Spread::Area => {
-                let axis = aim.u.cross(aim.v).try_normalize()?;
-                let axis = if axis.dot(aim.axis) < 0.0 { -axis } else { axis };
+                let axis = upright(&aim);
                 let light = axis.dot(aim.axis);
                 let [nearest, farthest] = reach(axis);
                 if light - farthest <= 0.0 {
@@ -133,30 +116,15 @@ impl Standpoint {
             }
         };
         let light = matches!(aim.spread, Spread::Area).then(|| [aim.axis, aim.u, aim.v].map(DVec3::as_vec3));
-        let (clip, drift) = match &mut far {
+        let clip = match &mut far {
             Far::Plane { range: [nearest, _], out: [lowest, _], .. } => {
-                let axis = match aim.spread {
-                    Spread::Area => aim.u.cross(aim.v).normalize(),
-                    Spread::Cone { .. } => aim.axis.normalize(),
-                };
-                let axis = if axis.dot(aim.axis) < 0.0 { -axis } else { axis };
-                let depth = f64::from(half.max_element()) * CLIP + 1e-5 * aim.reach(1.0, 1.0).min(1.0);
-                let height = f64::from(*nearest) + depth;
-                let clip = Clip { axis, height, centre: centre.as_dvec3() };
-                // Ways to the light that end at this depth: their middle, and how far others end from it.
-                let depth = height - f64::from(*lowest);
-                let rise = axis.dot(aim.axis);
-                let (steep, flattest) = (depth / rise, depth / (rise - axis.abs().dot(half.as_dvec3())));
-                let spread = aim.u.abs() + aim.v.abs() + half.as_dvec3();
-                let spread = spread * flattest + aim.axis.abs() * (flattest - steep);
-                if flattest > 0.0 && flattest * aim.axis.length() < STEEPEST * depth {
-                    *nearest = height as f32;
-                    (Some(clip), [(aim.axis * steep).as_vec3(), widened(spread)])
-                } else {
-                    (None, [Vec3::ZERO; 2])
+                let clip = Clip::new(centre, half, &aim, [*lowest, *nearest].map(f64::from));
+                if let Some(clip) = &clip {
+                    *nearest = clip.height();
                 }
+                clip
             }
-            Far::Ball { .. } => (None, [Vec3::ZERO; 2]),
+            Far::Ball { .. } => None,
         };
         let heights = reach(normal.as_dvec3()).map(|h| h as f32);
         let own = receivers[0].receiver.normal;
@@ -167,7 +135,6 @@ impl Standpoint {
         Some(Self {
             light,
             clip,
-            drift,
             shared,
             centre,
             half,
@@ -187,8 +154,9 @@ impl Standpoint {
         }
     }
 
-    pub(super) fn clip(&self) -> Option<Clip> {
-        self.clip
+    /// Where triangles that reach behind the receivers are cut.
+    pub(super) fn clip(&self) -> Option<&Clip> {
+        self.clip.as_ref()
     }
 
     pub(super) fn centre(&self) -> Vec3 {
@@ -252,8 +220,8 @@ impl Standpoint {
                 + (x.abs() + y.abs()) * wide * Eight::all(ROUNDING);
         }
         // And from all the places where the view meets the plane at which triangles are cut.
-        let ahead = plane - dot(self.drift[0], &normal);
-        let widest = self.drift[1] + self.drift[0].abs() * ROUNDING;
+        let [drift, widest] = self.clip.as_ref().map_or([Vec3::ZERO; 2], Clip::drift);
+        let ahead = plane - dot(drift, &normal);
         let far_off = off + dot(widest, &abs(&normal));
         let sided = off.below(plane.abs()).and(far_off.below(ahead.signed_as(plane)));
         let behind = plane.below(Eight::all(0.0));
@@ -292,20 +260,6 @@ impl Standpoint {
                 [zero.below(low), high.below(most), behind]
             }
         }
-    }
-}
-
-impl Clip {
-    /// Of each corner.
-    pub(super) fn heights(&self, corners: &[Vec3; 3]) -> [f64; 3] {
-        corners.map(|c| self.axis.dot(c.as_dvec3() - self.centre) - self.height)
-    }
-
-    /// Where a side crosses the plane: the same place from both ends.
-    pub(super) fn between(&self, a: Vec3, b: Vec3) -> Vec3 {
-        let (a, b) = if a.to_array() < b.to_array() { (a, b) } else { (b, a) };
-        let [p, q, _] = self.heights(&[a, b, b]);
-        a.as_dvec3().lerp(b.as_dvec3(), p / (p - q)).as_vec3()
     }
 }
 

@@ -16,18 +16,28 @@ use crate::samples::LightSamples;
 use crate::truth::{Method, Sight, Task};
 use pulp::{Arch, Simd, WithSimd};
 
-/// Covers what is hidden. Lit and hidden are exact: nothing is between, or one triangle is before the
+/// Covers what is hidden; `again` from the same receiver with another set of samples. Lit and hidden are exact: nothing is between, or one triangle is before the
 /// whole light.
 pub(super) fn look(
     task: &Task,
     (receiver, aim): (&Receiver, &Aim),
     (frame, turn): (&Frame, &Turn),
-    (ruling, seed): (&Ruling, u64),
+    (ruling, seed, again): (&Ruling, u64, bool),
     desk: &mut Desk,
     last: &mut usize,
 ) -> Sight {
-    let sight =
-        Arch::new().dispatch(Look { task, receiver, aim, frame, turn, ruling, seed, desk: &mut *desk, last });
+    let sight = Arch::new().dispatch(Look {
+        task,
+        receiver,
+        aim,
+        frame,
+        turn,
+        ruling,
+        seed,
+        again,
+        desk: &mut *desk,
+        last,
+    });
     match &task.tracer.surfaces.cutouts {
         Some(cutouts) if !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => Arch::new()
             .dispatch(Veil { task, cutouts, receiver, aim, frame, turn, ruling, seed, desk, sight }),
@@ -44,6 +54,7 @@ struct Look<'a> {
     turn: &'a Turn,
     ruling: &'a Ruling,
     seed: u64,
+    again: bool,
     desk: &'a mut Desk,
     last: &'a mut usize,
 }
@@ -53,8 +64,8 @@ impl WithSimd for Look<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Sight {
-        let Self { task, receiver, aim, frame, turn, ruling, seed, desk, last } = self;
-        past_whole(task, (receiver, aim), (frame, turn), (ruling, seed), desk, last)
+        let Self { task, receiver, aim, frame, turn, ruling, seed, again, desk, last } = self;
+        past_whole(task, (receiver, aim), (frame, turn), (ruling, seed, again), desk, last)
     }
 }
 
@@ -64,7 +75,7 @@ fn past_whole(
     task: &Task,
     (receiver, aim): (&Receiver, &Aim),
     (frame, turn): (&Frame, &Turn),
-    (ruling, seed): (&Ruling, u64),
+    (ruling, seed, again): (&Ruling, u64, bool),
     desk: &mut Desk,
     last: &mut usize,
 ) -> Sight {
@@ -87,42 +98,11 @@ fn past_whole(
         lines.trace((frame, turn, aim), &mut desk.samples, hidden);
         return Sight::Sampled;
     }
-    let past = match desk.patches.is_empty() {
-        true => Past::Lit,
-        false => desk.patches.look(receiver, frame),
-    };
-    if matches!(past, Past::Hidden) {
+    // A second set of samples meets the same.
+    if !again && whole(receiver, frame, desk, last) {
         return Sight::Hidden;
     }
-    // What hides the whole light comes before any sample, first of all the block that hid it from the
-    // neighbour.
-    let blocks = &desk.blocks;
-    desk.surveys.clear();
-    let count = blocks.blocks.len();
-    let first = if *last < count { *last } else { 0 };
-    for step in 0..=blocks.eights() {
-        let (eight, mut between) = match step {
-            0 => (first / LANES, u32::from(count > 0) << (first % LANES)),
-            _ => (step - 1, blocks.between(frame, step - 1)),
-        };
-        while between != 0 {
-            let at = eight * LANES + between.trailing_zeros() as usize;
-            between &= between - 1;
-            if step > 0 && at == first {
-                continue;
-            }
-            let block = &blocks.blocks[at];
-            let mut survey = block.survey(frame);
-            leave_own(&mut survey, block, receiver);
-            if survey.some & survey.whole != 0 {
-                *last = at;
-                return Sight::Hidden;
-            }
-            if survey.some != 0 {
-                desk.surveys.push((at, survey));
-            }
-        }
-    }
+    let (past, blocks, lines) = (desk.patches.past(), &desk.blocks, &mut desk.lines);
     if matches!(past, Past::Lit) && desk.surveys.is_empty() {
         return if drawn { Sight::Sampled } else { Sight::Lit };
     }
@@ -155,6 +135,43 @@ fn past_whole(
         }
     }
     Sight::Sampled
+}
+
+/// Looks for what hides the whole light, before any sample; keeps what hides a part of it on the desk.
+#[inline(always)]
+fn whole(receiver: &Receiver, frame: &Frame, desk: &mut Desk, last: &mut usize) -> bool {
+    if matches!(desk.patches.look(receiver, frame), Past::Hidden) {
+        return true;
+    }
+    // First of all the block that hid it from the neighbour.
+    let blocks = &desk.blocks;
+    desk.surveys.clear();
+    let count = blocks.blocks.len();
+    let first = if *last < count { *last } else { 0 };
+    for step in 0..=blocks.eights() {
+        let (eight, mut between) = match step {
+            0 => (first / LANES, u32::from(count > 0) << (first % LANES)),
+            _ => (step - 1, blocks.between(frame, step - 1)),
+        };
+        while between != 0 {
+            let at = eight * LANES + between.trailing_zeros() as usize;
+            between &= between - 1;
+            if step > 0 && at == first {
+                continue;
+            }
+            let block = &blocks.blocks[at];
+            let mut survey = block.survey(frame);
+            leave_own(&mut survey, block, receiver);
+            if survey.some & survey.whole != 0 {
+                *last = at;
+                return true;
+            }
+            if survey.some != 0 {
+                desk.surveys.push((at, survey));
+            }
+        }
+    }
+    false
 }
 
 /// Leaves out the receiver's own triangle and what is in its plane or below its horizon. In place: a

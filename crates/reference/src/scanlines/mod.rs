@@ -7,6 +7,8 @@
 #![expect(clippy::needless_range_loop, reason = "a lane is an index into several arrays at once")]
 
 mod blocks;
+mod candidates;
+mod clip;
 mod edges;
 mod eight;
 mod facing;
@@ -112,7 +114,7 @@ impl Find for Looking {
         for (set, ruling) in sets.enumerate() {
             let seed = mix(seed ^ set as u64);
             let turn = ruling.turn(seed);
-            match look(task, (receiver, &aim), (&frame, &turn), (ruling, seed), desk, last) {
+            match look(task, (receiver, &aim), (&frame, &turn), (ruling, seed, set > 0), desk, last) {
                 Sight::Lit => return PointTruth::exact(1.0, facing),
                 Sight::Hidden => return PointTruth::exact(0.0, facing),
                 Sight::Sampled if set == 0 => truth = PointTruth { facing, ..mean(&desk.lines) },
@@ -146,7 +148,7 @@ impl Find for Weighing {
         let ruling = &rulings.mean;
         let seed = mix(seed(task.seed, points.position[index]));
         let turn = ruling.turn(seed);
-        let sight = look(task, (receiver, &aim), (&frame, &turn), (ruling, seed), desk, last);
+        let sight = look(task, (receiver, &aim), (&frame, &turn), (ruling, seed, false), desk, last);
         if !matches!(sight, Sight::Sampled) {
             ruling.fill(&mut desk.lines, &frame, &turn, seed);
         }

@@ -26,7 +26,6 @@ pub(super) struct Shade {
     patch: Vec<u32>,
     /// On which side the receivers are.
     behind: Vec<bool>,
-    hits: Vec<(u32, f64)>,
     wave: Blocks,
     next: Vec<(u32, bool)>,
 }
@@ -69,39 +68,22 @@ impl Shade {
         let end = if aim.nearness()[0] == 0.0 { f64::INFINITY } else { length * (1.0 - LIGHT_GAP) };
         let line = Line { origin: middle, direction: aim.axis / length, range: [0.0, end] };
         let pyramids = Pyramids::new(standpoint, aim);
-        // Most often the neighbours' patch.
-        for i in 0..self.patch.len().min(LANES) {
-            let slot = self.patch[i];
-            if surfaces.crosses(&line, slot) {
-                if self.spread_wide(surfaces, standpoint, &pyramids, slot) {
-                    return true;
-                }
-                break;
-            }
+        // Most often the neighbours' patch; otherwise the largest triangles on the ray.
+        let neighbours = self.patch.iter().take(LANES).find(|&&slot| surfaces.crosses(&line, slot)).copied();
+        if let Some(seed) = neighbours
+            && Arch::new().dispatch(Spread { shade: self, surfaces, standpoint, pyramids: &pyramids, seed })
+        {
+            return true;
         }
-        let hits = &mut self.hits;
-        hits.clear();
+        let mut hits = Vec::new();
         surfaces.crossing(&line, |slot| {
             let [a, b, c] = surfaces.corners_f64(slot);
             hits.push((slot, (b - a).cross(c - a).length_squared()));
         });
         hits.sort_unstable_by(|a, b| b.1.total_cmp(&a.1));
-        for i in 0..self.hits.len().min(TRIED) {
-            if self.spread_wide(surfaces, standpoint, &pyramids, self.hits[i].0) {
-                return true;
-            }
-        }
-        false
-    }
-
-    fn spread_wide(
-        &mut self,
-        surfaces: &Surfaces,
-        standpoint: &Standpoint,
-        pyramids: &Pyramids,
-        seed: u32,
-    ) -> bool {
-        Arch::new().dispatch(Spread { shade: self, surfaces, standpoint, pyramids, seed })
+        hits.into_iter().take(TRIED).any(|(seed, _)| {
+            Arch::new().dispatch(Spread { shade: self, surfaces, standpoint, pyramids: &pyramids, seed })
+        })
     }
 
     /// Grows a patch from one triangle.
@@ -143,7 +125,7 @@ impl Shade {
                 if wave.start + lane == 0 {
                     self.behind.push(behind);
                 } else if self.behind[wave.start + lane] != behind {
-                    // A fold: the patch ends here, in front of the light.
+                    // A fold: before the light the patch turns its other side to the receivers.
                     return false;
                 }
                 if !cross(block, lane, (surfaces, pyramids), behind, &mut self.next) {

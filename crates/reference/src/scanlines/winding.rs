@@ -25,10 +25,10 @@ pub(super) struct Winding {
     /// What the bytes of a row may hold by now.
     full: Vec<u8>,
     /// What did not fit into bytes; empty while all fits.
-    more: Vec<[i16; REPLICATES * PER_WORD]>,
+    more: Vec<[i32; REPLICATES * PER_WORD]>,
     words: usize,
     /// Layers before every sample.
-    all: i16,
+    all: i32,
 }
 
 impl Winding {
@@ -80,7 +80,7 @@ impl Winding {
             }
             let weight = if rising >> lane & 1 != 0 { weight } else { -weight };
             if beyond >> lane & 1 != 0 {
-                self.all += i16::from(weight);
+                self.all += i32::from(weight);
                 continue;
             }
             let last = (last[lane] as usize).min(lines.rows.len());
@@ -142,7 +142,7 @@ impl Winding {
         self.more.resize(self.bytes.len(), [0; REPLICATES * PER_WORD]);
         for at in row * self.words..(row + 1) * self.words {
             for (more, byte) in self.more[at].iter_mut().zip(&mut self.bytes[at]) {
-                *more += i16::from(*byte as i8);
+                *more += i32::from(*byte as i8);
                 *byte = 0;
             }
         }
@@ -159,7 +159,7 @@ impl Winding {
                 let mut hidden = [0u8; REPLICATES * PER_WORD];
                 if let Some(more) = self.more.get(at) {
                     for i in 0..REPLICATES * PER_WORD {
-                        let layers = more[i] + i16::from(bytes[i] as i8) + self.all;
+                        let layers = more[i] + i32::from(bytes[i] as i8) + self.all;
                         hidden[i] = if layers != 0 { 0xff } else { 0 };
                     }
                 } else {
