@@ -99,6 +99,11 @@ impl Aim {
         Self { axis, u: u * width, v: v * width, outline: Outline::Disk, spread }
     }
 
+    /// Whether all of the light is one point, or one direction.
+    pub(crate) fn is_point(&self) -> bool {
+        self.u == DVec3::ZERO && self.v == DVec3::ZERO
+    }
+
     /// How much `a x + b y` varies to either side over the light.
     pub(crate) fn reach(&self, a: f64, b: f64) -> f64 {
         match self.outline {

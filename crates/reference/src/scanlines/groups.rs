@@ -175,7 +175,9 @@ impl<F: Find> WithSimd for Group<'_, F> {
         if receivers.is_empty() {
             return;
         }
-        let rays = task.settings.method == Method::ScanlineRays;
+        // A light that is a point is asked by a ray for each receiver.
+        let point = desk.aim(task.light, &receivers[0].receiver).is_some_and(|aim| aim.is_point());
+        let rays = point || task.settings.method == Method::ScanlineRays;
         // Depth first: the list of a part is on the desk until both of its halves are done.
         let mut parts = vec![(0..receivers.len(), 0)];
         while let Some((range, depth)) = parts.pop() {

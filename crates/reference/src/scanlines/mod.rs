@@ -29,6 +29,7 @@ use crate::TruthSettings;
 use crate::aim::Elevation;
 use crate::irradiance::Emitter;
 use crate::owen::mix;
+use crate::rays;
 use crate::receiver::Receiver;
 use crate::samples::seed;
 use crate::truth::{MOST_ON_SCANLINES, PointTruth, Sight, Task};
@@ -105,8 +106,13 @@ impl Find for Looking {
             return PointTruth::exact(0.0, false);
         }
         let seed = seed(task.seed, points.position[index]);
+        if aim.is_point() {
+            desk.samples.set_place(&aim, [0.0; 2]);
+            let blocked = rays::blocked(&task.tracer.surfaces, (receiver, &aim), &desk.samples, 0);
+            return PointTruth::exact(if blocked { 0.0 } else { 1.0 }, facing);
+        }
         let Some(frame) = desk.frame(receiver, &aim) else {
-            // A light without a size, or seen edge-on: the samples of the other ways.
+            // A line of light, or seen edge-on: the samples of the other ways.
             return task.point(points, index, &mut desk.scratch);
         };
         let mut truth = PointTruth::exact(1.0, facing);

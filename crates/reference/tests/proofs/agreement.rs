@@ -215,3 +215,23 @@ fn hundreds_of_layers() {
         assert!(count <= points.len() / 26 && worst <= 3, "{light:?}: {count} differ, by up to {worst}");
     }
 }
+
+/// All samples are one: every method says lit or hidden, and the same.
+#[test]
+fn lights_without_a_size() {
+    let (tracer, points) = large_soup();
+    let direction = Vec3::new(0.4, 1.0, 0.3).normalize();
+    let centre = direction * 6.0;
+    for light in [
+        AreaLight::Sun { direction_to_light: direction, angular_diameter_radians: 0.0 },
+        AreaLight::Disk { centre, normal: direction, radius_world: 0.0 },
+        AreaLight::Rect { centre, half_u: Vec3::ZERO, half_v: Vec3::ZERO },
+        AreaLight::Sphere { centre, radius_world: 0.0 },
+    ] {
+        let [rays, scanlines] = both(&tracer, &points, &light, [Method::Rays, Method::Scanlines]);
+        assert_eq!(rays.mean, scanlines.mean, "{light:?}");
+        assert_eq!(rays.facing, scanlines.facing, "{light:?}");
+        assert!(rays.mean.contains(&0.0) && rays.mean.contains(&1.0), "{light:?}: all the same");
+        assert!(scanlines.variance.iter().all(|&v| v == 0.0), "{light:?}");
+    }
+}
