@@ -235,3 +235,66 @@ fn lights_without_a_size() {
         assert!(scanlines.variance.iter().all(|&v| v == 0.0), "{light:?}");
     }
 }
+
+/// Sheets of connected triangles, crumpled, with holes, some triangles wound the other way, through each other, behind
+/// the receivers and through the light's plane: what is joined to patches, cut and counted by edges.
+fn sheets(random: &mut Random) -> (Tracer, Points) {
+    const N: usize = 12;
+    let mut triangles = floor(20.0).to_vec();
+    for _ in 0..5 {
+        let centre = random.vector() * Vec3::new(5.0, 1.5, 5.0) + Vec3::Y * 2.5;
+        let size = 0.5 + 3.0 * random.unit();
+        let (u, v) = (random.vector() * size, random.vector() * size);
+        let crumpled = 0.3 * random.unit().powi(2) * size;
+        let places: Vec<Vec3> = (0..=N * (N + 1) + N)
+            .map(|i| {
+                let [p, q] = [i % (N + 1), i / (N + 1)].map(|k| k as f32 / N as f32 - 0.5);
+                centre + u * p + v * q + random.vector() * crumpled / N as f32
+            })
+            .collect();
+        for i in (0..N * (N + 1)).filter(|i| i % (N + 1) < N) {
+            let [a, b, c, d] = [i, i + 1, i + N + 2, i + N + 1].map(|i| places[i]);
+            for mut triangle in [[a, b, c], [a, c, d]] {
+                if random.unit() < 0.1 {
+                    triangle.swap(0, 1);
+                }
+                if random.unit() > 0.005 {
+                    triangles.push(triangle);
+                }
+            }
+        }
+    }
+    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let points = tracer.primary(&view(Vec3::new(0.0, 3.0, 9.0), Vec3::Y, [96, 54])).points();
+    (tracer, points)
+}
+
+/// Ties are as in `assert_ties_only`: at most one point in 100, by at most 3 samples.
+#[test]
+fn connected_sheets() {
+    let mut random = Random(31);
+    let near = Vec3::new(0.5, 4.0, 0.5);
+    let wide = AreaLight::Rect { centre: near, half_u: Vec3::X * 2.0, half_v: Vec3::new(0.0, 0.7, 1.5) };
+    let lights = lights().into_iter().chain([low_sun(), wide]);
+    let (mut seen, mut partial, mut hidden) = (0, 0, 0);
+    for (number, light) in lights.cycle().take(60).enumerate() {
+        let (tracer, points) = sheets(&mut random);
+        let pair = both(&tracer, &points, &light, PAIRS[1]);
+        let differing = differences(&pair);
+        let count = differing.iter().filter(|&&d| d > 0).count();
+        let worst = differing.iter().max().copied().unwrap_or(0);
+        assert!(
+            count <= points.len() / 100 && worst <= 3,
+            "{number}, {light:?}: {count} of {} differ, by up to {worst}",
+            points.len()
+        );
+        seen += points.len();
+        partial += pair[0].mean.iter().filter(|&&m| m > 0.0 && m < 1.0).count();
+        hidden +=
+            pair[0].mean.iter().zip(&pair[0].facing).filter(|&(&m, &facing)| facing && m == 0.0).count();
+    }
+    assert!(
+        partial > seen / 20 && hidden > seen / 50,
+        "{partial} in penumbrae, {hidden} in shadow, of {seen}"
+    );
+}
