@@ -239,13 +239,20 @@ fn lights_without_a_size() {
 /// Sheets of connected triangles, crumpled, with holes, some triangles wound the other way, through each other, behind
 /// the receivers and through the light's plane: what is joined to patches, cut and counted by edges.
 fn sheets(random: &mut Random) -> (Tracer, Points) {
-    const N: usize = 12;
+    const N: usize = 24;
     let mut triangles = floor(20.0).to_vec();
-    for _ in 0..5 {
+    for sheet in 0..6 {
         let centre = random.vector() * Vec3::new(5.0, 1.5, 5.0) + Vec3::Y * 2.5;
         let size = 0.5 + 3.0 * random.unit();
         let (u, v) = (random.vector() * size, random.vector() * size);
-        let crumpled = 0.3 * random.unit().powi(2) * size;
+        let crumpled = 0.6 * random.unit().powi(2) * size;
+        // Two of them are walls that stand in the floor.
+        let wall = sheet < 2;
+        let (centre, u, v) = if wall {
+            (centre * Vec3::new(0.5, 0.0, 0.5), u * Vec3::new(2.0, 0.0, 2.0), Vec3::Y * 2.0)
+        } else {
+            (centre, u, v)
+        };
         let places: Vec<Vec3> = (0..=N * (N + 1) + N)
             .map(|i| {
                 let [p, q] = [i % (N + 1), i / (N + 1)].map(|k| k as f32 / N as f32 - 0.5);
