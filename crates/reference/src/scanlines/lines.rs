@@ -137,37 +137,43 @@ impl Ruling {
             if self.round {
                 self.within(row, frame);
             } else {
-                for k in 0..REPLICATES {
-                    row.inside[k] = self.wrapped([at, across[k]], row.shift.0[k], falls);
-                }
+                row.inside = self.wrapped(at, Eight(across), row.shift, falls);
             }
         }
     }
 
-    /// The samples of a row that are on a rectangle. At the left side the row is at `whole + part`;
+    /// The samples of a row that are on a rectangle. At the left side the row is at `whole` and a part;
     /// its other end has the same part, so that the two split their samples exactly.
-    fn wrapped(&self, [whole, part]: [f32; 2], shift: f32, falls: bool) -> u32 {
+    #[inline(always)]
+    fn wrapped(&self, whole: f32, part: Eight, shift: Eight, falls: bool) -> [u32; REPLICATES] {
         let n = self.rows as f32;
-        if whole >= RISE as f32 && whole < n - RISE as f32 {
-            return u32::MAX >> (BITS - self.per_row);
-        }
-        // The row only rises or only falls: where it crosses a strip's end, its samples part.
-        let sign = if falls { -1.0 } else { 1.0 };
-        let (mut low, mut high) = (0, self.per_row);
-        let on = |i: u32| {
-            let rise = part + sign * RISE as f32 * (i as f32 + shift) / self.per_row as f32;
-            let strip = whole + rise.floor();
-            strip >= 0.0 && strip < n
-        };
-        // A row that starts on the light leaves it, one that starts off it enters.
-        let starts = on(0);
-        while low < high {
-            let middle = low + (high - low) / 2;
-            if on(middle) == starts { low = middle + 1 } else { high = middle }
-        }
-        let before = 1u32.unbounded_shl(low).wrapping_sub(1);
         let all = u32::MAX >> (BITS - self.per_row);
-        if starts { before & all } else { !before & all }
+        if whole >= RISE as f32 && whole < n - RISE as f32 {
+            return [all; REPLICATES];
+        }
+        // The row only rises or only falls: where it crosses an end of the light, its samples part. One that
+        // starts beyond an end enters, all others leave.
+        let enters = if falls { whole >= n } else { whole < 0.0 };
+        let end = Eight::all(if enters == falls { n - whole } else { -whole });
+        let rise = Eight::all(if falls { -(RISE as f32) } else { RISE as f32 });
+        let per_row = Eight::all(self.per_row as f32);
+        // A closure might not be inlined, and then is compiled for narrow registers.
+        macro_rules! before_end {
+            ($i:expr) => {{
+                let before = (part + rise * ($i + shift) / per_row).below(end);
+                if falls { before.not() } else { before }
+            }};
+        }
+        // As many samples as this are before it, one more or one less: two of them tell.
+        let next = Eight(((end - part) * per_row / rise - shift).number().map(|number| number as f32));
+        let (none, one) = (Eight::all(0.0), Eight::all(1.0));
+        let last = next - one;
+        let number = last + before_end!(last).pick(one, none) + before_end!(next).pick(one, none);
+        let mut inside = number.before();
+        for inside in &mut inside {
+            *inside = if enters { !*inside } else { *inside } & all;
+        }
+        inside
     }
 
     /// The samples of a row that are on a round light.

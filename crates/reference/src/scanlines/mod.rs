@@ -124,7 +124,9 @@ impl Find for Looking {
                 Sight::Lit => return PointTruth::exact(1.0, facing),
                 Sight::Hidden => return PointTruth::exact(0.0, facing),
                 Sight::Sampled if set == 0 => truth = PointTruth { facing, ..mean(&desk.lines) },
-                Sight::Sampled => truth.basis = share(&desk.lines, 0..REPLICATES) as f32,
+                Sight::Sampled => {
+                    truth.basis = share(&desk.lines.visible(), &desk.lines.inside(), 0..REPLICATES) as f32;
+                }
             }
         }
         truth
@@ -174,16 +176,17 @@ impl Find for Weighing {
 
 /// The visible part of the samples of some replicates.
 #[inline(always)]
-fn share(lines: &Lines, lanes: Range<usize>) -> f64 {
-    let sum = |counts: [u32; REPLICATES]| f64::from(counts[lanes.clone()].iter().sum::<u32>());
-    sum(lines.visible()) / sum(lines.inside()).max(1.0)
+fn share(visible: &[u32; REPLICATES], inside: &[u32; REPLICATES], lanes: Range<usize>) -> f64 {
+    let sum = |counts: &[u32; REPLICATES]| f64::from(counts[lanes.clone()].iter().sum::<u32>());
+    sum(visible) / sum(inside).max(1.0)
 }
 
 #[inline(always)]
 fn mean(lines: &Lines) -> PointTruth {
-    let halves = [share(lines, 0..REPLICATES / 2), share(lines, REPLICATES / 2..REPLICATES)];
-    let all = share(lines, 0..REPLICATES);
     let (visible, inside) = (lines.visible(), lines.inside());
+    let share = |lanes| share(&visible, &inside, lanes);
+    let halves = [share(0..REPLICATES / 2), share(REPLICATES / 2..REPLICATES)];
+    let all = share(0..REPLICATES);
     let k = REPLICATES as f64;
     // Of a ratio: the residuals of each replicate against the common share (Cochran 1977, 6.4).
     let average = f64::from(inside.iter().sum::<u32>()) / k;

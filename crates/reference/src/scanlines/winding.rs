@@ -73,11 +73,11 @@ impl Winding {
         let beyond = right.below(Eight::all(-1.0 - MARGIN));
         let beyond = beyond.and(low.below(-end)).and(end.below(high)).bits();
         let [first, last] = frame.rows(ruling, low, high);
-        for lane in 0..LANES {
+        let mut some = nonzero(seen.weight) & !away;
+        while some != 0 {
+            let lane = some.trailing_zeros() as usize;
+            some &= some - 1;
             let weight = seen.weight[lane];
-            if weight == 0 || away >> lane & 1 != 0 {
-                continue;
-            }
             let weight = if rising >> lane & 1 != 0 { weight } else { -weight };
             if beyond >> lane & 1 != 0 {
                 self.all += i32::from(weight);
@@ -123,9 +123,8 @@ impl Winding {
             for w in 0..words {
                 let mut shifted = [0u64; LANES];
                 for k in 0..LANES {
-                    let number = before[k].saturating_sub((w * PER_WORD) as u32).min(PER_WORD as u32);
-                    let by = u64::from(number) * 4;
-                    shifted[k] = (pattern[k] << by) << by;
+                    let number = before[k].saturating_sub((w * PER_WORD) as u32);
+                    shifted[k] = pattern[k].unbounded_shl(8 * number);
                 }
                 let shifted: Bytes = bytemuck::cast(shifted);
                 let bytes = &mut self.bytes[j * words + w];
@@ -183,6 +182,16 @@ impl Winding {
             }
         }
     }
+}
+
+/// A bit for each that is not 0.
+#[inline(always)]
+fn nonzero(bytes: [i8; LANES]) -> u32 {
+    const LOW: u64 = 0x7f7f_7f7f_7f7f_7f7f;
+    let word = u64::from_le_bytes(bytes.map(|byte| byte as u8));
+    // The highest bit of each byte, gathered in the highest byte.
+    let bits = ((word & LOW).wrapping_add(LOW) | word) & !LOW;
+    ((bits >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32
 }
 
 /// In the rows' coordinates.
