@@ -42,8 +42,8 @@ pub(crate) struct Cone {
     pub(crate) tan: f32,
     /// tan / angle.
     stretch: f32,
-    per_sin: f32,
-    narrow: bool,
+    pub(super) per_sin: f32,
+    pub(super) narrow: bool,
 }
 
 /// The aim's coordinates from the rows': `x = xx x' + xy y'`, `y = yx x' + yy y'`.

@@ -114,7 +114,7 @@ fn past_whole(
         for seen in &desk.patches.seen {
             desk.winding.add(seen, lines, (frame, ruling, turn));
         }
-        desk.winding.hide(lines);
+        desk.winding.hide(lines, frame);
         if lines.full() {
             return Sight::Sampled;
         }

@@ -3,48 +3,163 @@
 //! On each row an edge changes the number of layers before all samples on its right. Vertices belong to edges by
 //! half-open ranges across the rows, so that the outline of a triangle counts each sample 0 or 1 times.
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+mod portable;
+
 use super::edges::Seen;
-use super::eight::{Eight, LANES};
-use super::frame::{Frame, Turn};
-use super::lines::{Lines, REPLICATES, RISE, Ruling};
+use super::eight::{Eight, LANES, bytes};
+use super::frame::{Cone, Frame, Turn};
+use super::lines::{Lines, REPLICATES, RISE, Row, Ruling};
 use super::outline::MARGIN;
+use portable::Portable;
+
+/// For each bit that is set.
+macro_rules! for_each {
+    ($bits:expr, $lane:ident => $body:block) => {
+        let mut bits: u32 = $bits;
+        while bits != 0 {
+            let $lane = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            $body
+        }
+    };
+}
 
 /// Samples of a row that fit into a word, a byte each.
 const PER_WORD: usize = 8;
 
+/// Words of a row, at most.
+const MOST_WORDS: usize = 4;
+
 /// What a byte may hold before it is moved on, either sign.
 const MOST: u8 = 127;
 
-/// Of each row, in words of all replicates: word, replicate, sample.
-type Bytes = [u8; REPLICATES * PER_WORD];
+/// A byte in each of a word's.
+const EACH: u64 = 0x0101_0101_0101_0101;
+
+/// Of a row: the replicates in `ORDER`, eight samples of each.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+struct Bytes([u8; REPLICATES * PER_WORD]);
+
+/// In which AVX2 unpacks the lanes of a register.
+const ORDER: [usize; REPLICATES] = [0, 1, 4, 5, 2, 3, 6, 7];
+
+/// Eight edges on the rows: `x = slope y + at` between two places across them.
+struct Runs {
+    slope: Eight,
+    at: Eight,
+    low: Eight,
+    high: Eight,
+    weight: [i32; LANES],
+}
+
+/// One of them.
+#[derive(Clone, Copy)]
+struct Run {
+    slope: f32,
+    at: f32,
+    low: f32,
+    high: f32,
+    weight: i32,
+}
+
+impl Runs {
+    #[inline(always)]
+    fn run(&self, lane: usize) -> Run {
+        let Self { slope, at, low, high, weight } = self;
+        let ends = [low.0[lane], high.0[lane]];
+        Run { slope: slope.0[lane], at: at.0[lane], low: ends[0], high: ends[1], weight: weight[lane] }
+    }
+}
+
+/// What is done to a row, for a kind of registers. The same bits with any.
+trait Registers: Copy {
+    /// Adds an edge's weight where it crosses a row.
+    fn before(self, run: &Run, row: &Row, layers: &mut [i32; REPLICATES]);
+
+    /// Adds it to the samples after the edge; `half` a row's samples.
+    fn across<const WORDS: usize>(
+        self,
+        run: &Run,
+        row: &Row,
+        place: (Option<&Cone>, f32),
+        words: &mut [Bytes; WORDS],
+    );
+
+    /// Which of a row's samples have as many layers in `bytes` as make none together with `layers`: a byte for each
+    /// replicate of `ORDER`.
+    fn none(self, bytes: &Bytes, layers: &[i32; REPLICATES]) -> [u8; REPLICATES];
+}
+
+/// Rows of runs, one after the other: a loop over them all ends once, one over the few of each run would be guessed
+/// wrong at most of its ends.
+#[derive(Default)]
+struct Steps {
+    /// 256 times the run, and the row; what is beyond `count` is of no use.
+    list: Vec<u32>,
+    count: usize,
+}
 
 /// Layers before each sample of a receiver.
 #[derive(Default)]
 pub(super) struct Winding {
+    runs: Vec<Runs>,
+    /// Where a run may cross samples, and where it is before all of them.
+    across: Steps,
+    before: Steps,
     bytes: Vec<Bytes>,
     /// What the bytes of a row may hold by now.
     full: Vec<u8>,
     /// What did not fit into bytes; empty while all fits.
     more: Vec<[i32; REPLICATES * PER_WORD]>,
     words: usize,
+    /// Layers before every sample of a row.
+    rows: Vec<[i32; REPLICATES]>,
     /// Layers before every sample.
     all: i32,
+}
+
+impl Steps {
+    #[inline(always)]
+    fn add(&mut self, run: u32, first: u32, last: u32) {
+        let count = last.saturating_sub(first);
+        let mut step = run << 8 | first;
+        // Always eight, most often more than there are.
+        let end = self.count + count as usize;
+        if self.list.len() < end + LANES {
+            self.list.resize(2 * end + LANES, 0);
+        }
+        while self.count < end {
+            for (k, into) in self.list[self.count..][..LANES].iter_mut().enumerate() {
+                *into = step + k as u32;
+            }
+            self.count += LANES;
+            step += LANES as u32;
+        }
+        self.count = end;
+    }
 }
 
 impl Winding {
     #[inline(always)]
     pub(super) fn start(&mut self, ruling: &Ruling) {
         let [_, rows, per_row] = ruling.size();
-        self.words = (per_row as usize).div_ceil(PER_WORD);
+        self.words = (per_row as usize).div_ceil(PER_WORD).clamp(1, MOST_WORDS);
         self.bytes.clear();
-        self.bytes.resize(rows as usize * self.words, [0; REPLICATES * PER_WORD]);
+        self.bytes.resize(rows as usize * self.words, Bytes([0; REPLICATES * PER_WORD]));
         self.full.clear();
         self.full.resize(rows as usize, 0);
         self.more.clear();
+        self.rows.clear();
+        self.rows.resize(rows as usize, [0; REPLICATES]);
         self.all = 0;
+        self.runs.clear();
+        (self.across.count, self.before.count) = (0, 0);
     }
 
-    /// Adds what a receiver sees of eight edges.
+    /// Takes what a receiver sees of eight edges.
     #[inline(always)]
     pub(super) fn add(
         &mut self,
@@ -65,73 +180,80 @@ impl Winding {
         let to = turned(turn, &seen.to);
         let (low, high) = (from[1].min(to[1]), from[1].max(to[1]));
         let (left, right) = (from[0].min(to[0]), from[0].max(to[0]));
-        let rising = from[1].below(to[1]).bits();
+        let rising = from[1].below(to[1]);
         // Off the light on the right nothing changes.
-        let away = Eight::all(1.0 + MARGIN).below(left).bits();
+        let away = Eight::all(1.0 + MARGIN).below(left);
         // Off it on the left every sample of a row has the layer; rows all lie within this.
         let end = Eight::all(1.0 + 2.0 * RISE as f32 / ruling.rows as f32 + MARGIN);
-        let beyond = right.below(Eight::all(-1.0 - MARGIN));
-        let beyond = beyond.and(low.below(-end)).and(end.below(high)).bits();
+        let before = right.below(Eight::all(-1.0 - MARGIN));
+        let beyond = before.and(low.below(-end)).and(end.below(high));
+        let [rising, away, before, beyond] = bytes([rising, away, before, beyond]);
         let [first, last] = frame.rows(ruling, low, high);
-        let mut some = nonzero(seen.weight) & !away;
-        while some != 0 {
-            let lane = some.trailing_zeros() as usize;
-            some &= some - 1;
-            let weight = seen.weight[lane];
-            let weight = if rising >> lane & 1 != 0 { weight } else { -weight };
-            if beyond >> lane & 1 != 0 {
-                self.all += i32::from(weight);
-                continue;
-            }
-            let last = (last[lane] as usize).min(lines.rows.len());
-            let first = (first[lane] as usize).min(last);
-            let line = [slope.0[lane], at.0[lane]];
-            self.edge(lines, frame, first..last, (line, [low.0[lane], high.0[lane]], weight));
+        let mut weight = seen.weight;
+        for lane in 0..LANES {
+            weight[lane] = if rising >> lane & 1 != 0 { weight[lane] } else { -weight[lane] };
         }
+        let some = nonzero(weight) & !away;
+        for_each!(some & beyond, lane => { self.all += i32::from(weight[lane]) });
+        let some = some & !beyond;
+        let first_run = (LANES * self.runs.len()) as u32;
+        self.runs.push(Runs { slope, at, low, high, weight: weight.map(i32::from) });
+        let rows = lines.rows.len() as u32;
+        for_each!(some & before, lane => {
+            self.before.add(first_run + lane as u32, first[lane], last[lane].min(rows));
+        });
+        for_each!(some & !before, lane => {
+            self.across.add(first_run + lane as u32, first[lane], last[lane].min(rows));
+        });
     }
 
-    /// One edge: `x = slope y + at` between two places across the rows.
+    /// Hides the samples that have a layer before them.
     #[inline(always)]
-    fn edge(
-        &mut self,
-        lines: &Lines,
-        frame: &Frame,
-        rows: std::ops::Range<usize>,
-        ([slope, at], [low, high], weight): ([f32; 2], [f32; 2], i8),
-    ) {
-        let half = Eight::all(0.5 * lines.per_row);
-        let word = u64::from(weight as u8) * 0x0101_0101_0101_0101;
-        let words = self.words;
-        for j in rows {
-            let row = &lines.rows[j];
-            let mut x = Eight::all(slope) * row.y + Eight::all(at);
-            if let Some(cone) = &frame.cone {
-                x = cone.along(x, row.cos);
-            }
-            let before = (x * half + (half - row.shift)).number();
-            let full = self.full[j] + weight.unsigned_abs();
+    pub(super) fn hide(&mut self, lines: &mut Lines, frame: &Frame) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = pulp::x86::V3::try_new() {
+            return self.hide_with(simd, lines, frame);
+        }
+        self.hide_with(Portable, lines, frame);
+    }
+
+    #[inline(always)]
+    fn hide_with(&mut self, registers: impl Registers, lines: &mut Lines, frame: &Frame) {
+        for &step in &self.before.list[..self.before.count] {
+            let (run, j) = (self.run(step), step as usize & 0xff);
+            registers.before(&run, &lines.rows[j], &mut self.rows[j]);
+        }
+        match self.words {
+            1 => self.cross::<1>(registers, lines, frame),
+            2 => self.cross::<2>(registers, lines, frame),
+            3 => self.cross::<3>(registers, lines, frame),
+            _ => self.cross::<MOST_WORDS>(registers, lines, frame),
+        }
+        self.mark(registers, lines);
+    }
+
+    #[inline(always)]
+    fn run(&self, step: u32) -> Run {
+        let run = step as usize >> 8;
+        self.runs[run / LANES].run(run % LANES)
+    }
+
+    /// Adds all edges that may cross samples.
+    #[inline(always)]
+    fn cross<const WORDS: usize>(&mut self, registers: impl Registers, lines: &Lines, frame: &Frame) {
+        let half = 0.5 * lines.per_row;
+        for i in 0..self.across.count {
+            let step = self.across.list[i];
+            let (run, j) = (self.run(step), step as usize & 0xff);
+            let weight = run.weight.unsigned_abs() as u8;
+            let full = self.full[j] + weight;
             self.full[j] = full;
             if full > MOST {
                 self.spill(j);
-                self.full[j] = weight.unsigned_abs();
+                self.full[j] = weight;
             }
-            let mut pattern = [0u64; LANES];
-            for k in 0..LANES {
-                let crossed = row.y.0[k] >= low && row.y.0[k] < high;
-                pattern[k] = if crossed { word } else { 0 };
-            }
-            for w in 0..words {
-                let mut shifted = [0u64; LANES];
-                for k in 0..LANES {
-                    let number = before[k].saturating_sub((w * PER_WORD) as u32);
-                    shifted[k] = pattern[k].unbounded_shl(8 * number);
-                }
-                let shifted: Bytes = bytemuck::cast(shifted);
-                let bytes = &mut self.bytes[j * words + w];
-                for i in 0..REPLICATES * PER_WORD {
-                    bytes[i] = bytes[i].wrapping_add(shifted[i]);
-                }
-            }
+            let words = &mut self.bytes.as_chunks_mut::<WORDS>().0[j];
+            registers.across(&run, &lines.rows[j], (frame.cone.as_ref(), half), words);
         }
     }
 
@@ -140,48 +262,44 @@ impl Winding {
     fn spill(&mut self, row: usize) {
         self.more.resize(self.bytes.len(), [0; REPLICATES * PER_WORD]);
         for at in row * self.words..(row + 1) * self.words {
-            for (more, byte) in self.more[at].iter_mut().zip(&mut self.bytes[at]) {
+            for (more, byte) in self.more[at].iter_mut().zip(&mut self.bytes[at].0) {
                 *more += i32::from(*byte as i8);
                 *byte = 0;
             }
         }
     }
 
-    /// Hides the samples that have a layer before them.
     #[inline(always)]
-    pub(super) fn hide(&self, lines: &mut Lines) {
-        let words = self.words;
+    fn mark(&self, registers: impl Registers, lines: &mut Lines) {
         for (j, row) in lines.rows.iter_mut().enumerate() {
-            for w in 0..words {
-                let at = j * words + w;
-                let bytes = &self.bytes[at];
-                let mut hidden = [0u8; REPLICATES * PER_WORD];
-                if let Some(more) = self.more.get(at) {
-                    for i in 0..REPLICATES * PER_WORD {
-                        let layers = more[i] + i32::from(bytes[i] as i8) + self.all;
-                        hidden[i] = if layers != 0 { 0xff } else { 0 };
-                    }
-                } else {
-                    // What a byte holds is above -128 and below 128.
-                    let none = match i8::try_from(-self.all) {
-                        Ok(none) => none as u8,
-                        Err(_) => 0x80,
-                    };
-                    for i in 0..REPLICATES * PER_WORD {
-                        hidden[i] = if bytes[i] != none { 0xff } else { 0 };
-                    }
-                }
-                for k in 0..REPLICATES {
-                    let mut word = [0; PER_WORD];
-                    word.copy_from_slice(&hidden[k * PER_WORD..(k + 1) * PER_WORD]);
-                    let word = u64::from_le_bytes(word);
-                    // A bit of each byte, gathered in the highest.
-                    let bits = (word & 0x8040_2010_0804_0201).wrapping_mul(0x0101_0101_0101_0101) >> 56;
-                    row.hidden[k] |= (bits as u32) << (w * PER_WORD);
+            let layers = self.rows[j].map(|layers| layers + self.all);
+            for w in 0..self.words {
+                let at = j * self.words + w;
+                let none = match self.more.get(at) {
+                    None => registers.none(&self.bytes[at], &layers),
+                    Some(more) => none(&self.bytes[at], more, &layers),
+                };
+                for (&k, none) in ORDER.iter().zip(none) {
+                    row.hidden[k] |= u32::from(!none) << (w * PER_WORD);
                 }
             }
         }
     }
+}
+
+/// The samples without layers where some did not fit into bytes.
+#[cold]
+fn none(
+    bytes: &Bytes,
+    more: &[i32; REPLICATES * PER_WORD],
+    layers: &[i32; REPLICATES],
+) -> [u8; REPLICATES] {
+    let mut none = [0; REPLICATES];
+    for (i, (byte, more)) in bytes.0.iter().zip(more).enumerate() {
+        let all = more + i32::from(*byte as i8) + layers[ORDER[i / PER_WORD]];
+        none[i / PER_WORD] |= u8::from(all == 0) << (i % PER_WORD);
+    }
+    none
 }
 
 /// A bit for each that is not 0.
