@@ -251,6 +251,17 @@ impl Block {
         Face { sure, behind, clear }
     }
 
+    /// Corner, axis.
+    pub(crate) fn corners(&self) -> &[[Eight; 3]; 3] {
+        &self.corners
+    }
+
+    #[inline(always)]
+    pub(crate) fn corner(&self, lane: usize, corner: usize) -> Vec3 {
+        let [x, y, z] = &self.corners[corner];
+        Vec3::new(x.0[lane], y.0[lane], z.0[lane])
+    }
+
     /// A bit for each triangle that there is.
     pub(crate) fn used(&self) -> u32 {
         self.used

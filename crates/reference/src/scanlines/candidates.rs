@@ -2,34 +2,35 @@
 
 use super::blocks::Blocks;
 use super::clip::Clip;
+use super::eight::LANES;
 use super::facing::Standpoint;
+use super::whereabouts::Whereabouts;
 use crate::surfaces::Surfaces;
 use glam::Vec3;
 
-/// A triangle without edges here.
-const NOWHERE: u32 = u32::MAX;
-
 /// What is known of one candidate.
 #[derive(Clone, Copy)]
-pub(super) struct Candidate {
-    pub(super) slot: u32,
-    pub(super) corners: [Vec3; 3],
+struct Candidate {
+    slot: u32,
+    /// 8 times its block, and its lane.
+    at: u32,
+    /// Another of the same patch with a lower number, or itself.
+    parent: u32,
+    owner: u32,
     /// 1 or -1; 0 where it depends on the receiver.
-    pub(super) side: i8,
-    pub(super) clear: bool,
+    side: i8,
+    clear: bool,
     /// Whether it has to be cut before all receivers.
     cut: bool,
-    /// Another of the same patch, or itself.
-    parent: u32,
-    pub(super) owner: u32,
+    /// A bit for each side that a candidate before it has met.
+    met: u8,
 }
 
 /// All of them.
 #[derive(Default)]
 pub(super) struct Candidates {
     list: Vec<Candidate>,
-    /// Slots and their candidates, open addressing.
-    table: Vec<(u32, u32)>,
+    whereabouts: Whereabouts,
     kept: Vec<Kept>,
 }
 
@@ -51,10 +52,26 @@ pub(super) struct Edge {
     pub(super) open: bool,
 }
 
+/// A triangle whose side depends on the receiver.
+pub(super) struct Open {
+    pub(super) slot: u32,
+    pub(super) corners: [Vec3; 3],
+    pub(super) clear: bool,
+}
+
 impl Candidate {
     /// What it adds, times what it is to a receiver if it is open.
     fn adds(&self) -> i8 {
         if self.side == 0 { 1 } else { self.side }
+    }
+
+    #[inline(always)]
+    fn corner(&self, all: &Blocks, k: usize) -> Vec3 {
+        all.blocks[self.at as usize / LANES].corner(self.at as usize % LANES, k)
+    }
+
+    fn corners(&self, all: &Blocks) -> [Vec3; 3] {
+        all.blocks[self.at as usize / LANES].triangle(self.at as usize % LANES)
     }
 }
 
@@ -64,63 +81,79 @@ impl Candidates {
     pub(super) fn take(&mut self, standpoint: Option<&Standpoint>, all: &Blocks, rest: &mut Blocks) {
         self.list.clear();
         rest.clear();
-        for block in &all.blocks {
-            let sure = standpoint.map(|standpoint| (standpoint, standpoint.sure(block)));
-            for lane in 0..block.used().count_ones() as usize {
-                let (slot, corners) = (block.slots[lane], block.triangle(lane));
-                let Some((standpoint, sure)) = sure else {
-                    rest.push(slot, &corners);
-                    continue;
-                };
+        for (b, block) in all.blocks.iter().enumerate() {
+            let Some(standpoint) = standpoint else {
+                for lane in 0..block.used().count_ones() as usize {
+                    rest.push(block.slots[lane], &block.triangle(lane));
+                }
+                continue;
+            };
+            let sure = standpoint.sure(block);
+            let mut some = block.used() & !sure.never;
+            if some & !sure.clear != 0 {
+                some &= sure.clear | !standpoint.skips(block);
+            }
+            let sided = sure.clear & sure.sided;
+            let cuttable = if standpoint.clip().is_some() { sided } else { 0 };
+            let taken = some & sure.nearer & (sure.front | cuttable);
+            let mut left = some & !taken;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                rest.push(block.slots[lane], &block.triangle(lane));
+            }
+            let mut left = taken;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
                 let is = |bits: u32| bits >> lane & 1 != 0;
-                if is(sure.never) || !is(sure.clear) && standpoint.skips(&corners) {
-                    continue;
-                }
-                let sided = is(sure.clear & sure.sided);
-                let cut = !is(sure.front);
-                if !is(sure.nearer) || cut && !(sided && standpoint.clip().is_some()) {
-                    rest.push(slot, &corners);
-                    continue;
-                }
-                let side = match (sided, is(sure.behind)) {
-                    (false, _) => 0,
-                    (true, false) => 1,
-                    (true, true) => -1,
-                };
+                let side = i8::from(is(sided)) - 2 * i8::from(is(sided & sure.behind));
                 let parent = self.list.len() as u32;
-                let clear = is(sure.clear);
-                self.list.push(Candidate { slot, corners, side, clear, cut, parent, owner: NOWHERE });
+                self.list.push(Candidate {
+                    slot: block.slots[lane],
+                    at: (LANES * b + lane) as u32,
+                    parent,
+                    owner: 0,
+                    side,
+                    clear: is(sure.clear),
+                    cut: !is(sure.front),
+                    met: 0,
+                });
             }
         }
     }
 
     /// Gives each patch a number, then each triangle that is open; calls back with the latter. Returns how many patches
     /// there are.
-    pub(super) fn name_owners(&mut self, mut open: impl FnMut(&Candidate)) -> usize {
+    #[inline(always)]
+    pub(super) fn name_owners(&mut self, all: &Blocks, mut open: impl FnMut(&Open)) -> usize {
         let mut patches = 0;
         for i in 0..self.list.len() {
-            if self.list[i].side == 0 {
+            let Candidate { parent, side, .. } = self.list[i];
+            if side == 0 {
                 continue;
             }
-            let root = self.root(i as u32) as usize;
-            if self.list[root].owner == NOWHERE {
-                self.list[root].owner = patches;
+            if parent == i as u32 {
+                self.list[i].owner = patches;
                 patches += 1;
+            } else {
+                self.list[i].owner = self.list[parent as usize].owner;
             }
-            self.list[i].owner = self.list[root].owner;
         }
         for (owner, candidate) in (patches..).zip(self.list.iter_mut().filter(|c| c.side == 0)) {
             candidate.owner = owner;
-            open(candidate);
+            let Candidate { slot, clear, .. } = *candidate;
+            open(&Open { slot, corners: candidate.corners(all), clear });
         }
         patches as usize
     }
 
     /// Names every edge at which the number of layers may change, with triangles cut at a plane.
-    pub(super) fn edges(&self, clip: Option<&Clip>, mut put: impl FnMut(Edge)) {
+    #[inline(always)]
+    pub(super) fn edges(&self, all: &Blocks, clip: Option<&Clip>, mut put: impl FnMut(Edge)) {
         for Kept { candidate, side: k, beyond } in &self.kept {
             let one = &self.list[*candidate as usize];
-            let ends = [one.corners[*k], one.corners[(k + 1) % 3]];
+            let ends = [one.corner(all, *k), one.corner(all, (k + 1) % 3)];
             let ends = if one.cut { clip.and_then(|clip| clip.before(ends)) } else { Some(ends) };
             let Some(ends) = ends else { continue };
             let mut edge = Edge { ends, owners: [one.owner; 2], sides: [one.adds(), 0], open: one.side == 0 };
@@ -133,81 +166,60 @@ impl Candidates {
             put(edge);
         }
         for one in self.list.iter().filter(|c| c.cut) {
-            if let Some(ends) = clip.and_then(|clip| clip.across(&one.corners)) {
+            if let Some(ends) = clip.and_then(|clip| clip.across(&one.corners(all))) {
                 put(Edge { ends, owners: [one.owner; 2], sides: [one.side, 0], open: false });
-            }
-        }
-    }
-
-    fn index(&mut self) {
-        let size = (2 * self.list.len()).next_power_of_two();
-        self.table.clear();
-        self.table.resize(size, (NOWHERE, 0));
-        for (i, candidate) in self.list.iter().enumerate() {
-            let mut at = spot(candidate.slot, size);
-            while self.table[at].0 != NOWHERE {
-                at = (at + 1) & (size - 1);
-            }
-            self.table[at] = (candidate.slot, i as u32);
-        }
-    }
-
-    #[inline(always)]
-    fn find(&self, slot: u32) -> Option<usize> {
-        let size = self.table.len();
-        let mut at = spot(slot, size);
-        loop {
-            match self.table[at] {
-                (found, candidate) if found == slot => return Some(candidate as usize),
-                (NOWHERE, _) => return None,
-                _ => at = (at + 1) & (size - 1),
             }
         }
     }
 
     /// Makes patches of neighbours whose common edge changes nothing, and keeps all other edges.
     pub(super) fn join(&mut self, surfaces: &Surfaces) {
-        self.index();
+        self.whereabouts.clear(surfaces.corners.len());
+        for (i, candidate) in self.list.iter().enumerate() {
+            self.whereabouts.set(candidate.slot, i as u32);
+        }
         self.kept.clear();
         for i in 0..self.list.len() {
-            let Candidate { slot, side, .. } = self.list[i];
+            let Candidate { slot, side, met, .. } = self.list[i];
             for k in 0..3 {
+                if met >> k & 1 != 0 {
+                    continue;
+                }
                 let mate = surfaces.mates.of(slot, k);
-                let mate = mate.and_then(|mate| Some((self.find(mate.slot)?, mate.opposite)));
-                let Some((beyond, reverse)) = mate else {
+                let mate = mate.and_then(|mate| Some((self.whereabouts.find(mate.slot)?, mate)));
+                let Some((beyond, mate)) = mate else {
                     self.kept.push(Kept { candidate: i as u32, side: k, beyond: None });
                     continue;
                 };
-                // Each edge once.
-                if beyond <= i {
+                let reverse = mate.opposite;
+                let other = &mut self.list[beyond as usize];
+                other.met |= 1 << mate.side;
+                // Two sides of one triangle.
+                if beyond as usize == i {
                     continue;
                 }
-                let other = self.list[beyond].side;
-                let cancel = if reverse { side == other } else { side == -other };
+                let cancel = if reverse { side == other.side } else { side == -other.side };
                 if side != 0 && cancel {
-                    let (a, b) = (self.root(i as u32), self.root(beyond as u32));
+                    let (a, b) = (self.root(i as u32), self.root(beyond));
                     self.list[a.max(b) as usize].parent = a.min(b);
                 } else {
-                    let beyond = Some((beyond as u32, reverse));
-                    self.kept.push(Kept { candidate: i as u32, side: k, beyond });
+                    self.kept.push(Kept { candidate: i as u32, side: k, beyond: Some((beyond, reverse)) });
                 }
             }
         }
     }
 
     /// Of a patch, with the ways to it halved (Tarjan and van Leeuwen 1984).
+    #[inline(always)]
     fn root(&mut self, mut i: u32) -> u32 {
-        while self.list[i as usize].parent != i {
-            let up = self.list[i as usize].parent;
-            self.list[i as usize].parent = self.list[up as usize].parent;
+        loop {
+            let parent = self.list[i as usize].parent;
+            if parent == i {
+                return i;
+            }
+            let up = self.list[parent as usize].parent;
+            self.list[i as usize].parent = up;
             i = up;
         }
-        i
     }
-}
-
-/// Where a slot is looked for first (Knuth's multiplicative hash).
-#[inline(always)]
-fn spot(slot: u32, size: usize) -> usize {
-    ((u64::from(slot.wrapping_mul(0x9e37_79b9)) * size as u64) >> 32) as usize
 }

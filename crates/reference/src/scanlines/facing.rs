@@ -4,7 +4,7 @@
 
 use super::blocks::Block;
 use super::clip::{Clip, upright};
-use super::eight::{Eight, Mask, bytes};
+use super::eight::{Eight, LANES, Mask, bytes};
 use super::groups::Placed;
 use crate::aim::{Aim, Distance, Spread};
 use crate::rays::LIGHT_GAP;
@@ -173,16 +173,28 @@ impl Standpoint {
         })
     }
 
-    /// Whether a triangle is in the plane of all receivers, or below it, as `Receiver::skips` would say at each.
-    pub(super) fn skips(&self, corners: &[Vec3; 3]) -> bool {
-        self.shared.is_some_and(|(normal, lowest)| {
-            corners.iter().all(|corner| {
-                let corner = corner.as_dvec3();
+    /// A bit for each triangle in the plane of all receivers, or below it, as `Receiver::skips` would say at each.
+    #[inline(always)]
+    pub(super) fn skips(&self, block: &Block) -> u32 {
+        let Some((normal, lowest)) = self.shared else { return 0 };
+        let mut above = [f64::NEG_INFINITY; LANES];
+        for corner in block.corners() {
+            let [x, y, z] = corner;
+            for k in 0..LANES {
+                let place = [f64::from(x.0[k]), f64::from(y.0[k]), f64::from(z.0[k])];
+                let height = normal.x * place[0] + normal.y * place[1] + normal.z * place[2] - lowest;
+                let sizes = normal.x.abs() * place[0].abs() + normal.y.abs() * place[1].abs();
+                let size = sizes + normal.z.abs() * place[2].abs();
                 // Half of what every receiver allows: the rest is for f64's own rounding.
-                let rounding = 0.5 * COPLANAR * normal.abs().dot(corner.abs());
-                normal.dot(corner) - lowest <= rounding
-            })
-        })
+                let over = height - 0.5 * COPLANAR * size;
+                above[k] = if over > above[k] { over } else { above[k] };
+            }
+        }
+        let mut skips = 0;
+        for (k, above) in above.iter().enumerate() {
+            skips |= u32::from(*above <= 0.0) << k;
+        }
+        skips
     }
 
     #[inline(always)]

@@ -22,6 +22,7 @@ mod shade;
 mod veil;
 mod volume;
 mod weights;
+mod whereabouts;
 mod winding;
 
 use crate::Points;

@@ -71,7 +71,7 @@ impl Patches {
         candidates.join(surfaces);
         open.clear();
         clear.clear();
-        self.patches = candidates.name_owners(|candidate| {
+        self.patches = candidates.name_owners(all, |candidate| {
             let lane = open.push(candidate.slot, &candidate.corners);
             if lane == 0 {
                 clear.push(0);
@@ -81,7 +81,7 @@ impl Patches {
             }
         });
         edges.clear();
-        candidates.edges(standpoint.and_then(Standpoint::clip), |edge| edges.push(&edge));
+        candidates.edges(all, standpoint.and_then(Standpoint::clip), |edge| edges.push(&edge));
         self.sides.clear();
         self.sides.resize(self.patches + self.open.blocks.len() * LANES, 1);
         self.shade = None;

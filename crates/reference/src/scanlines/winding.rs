@@ -289,11 +289,7 @@ impl Winding {
 
 /// The samples without layers where some did not fit into bytes.
 #[cold]
-fn none(
-    bytes: &Bytes,
-    more: &[i32; REPLICATES * PER_WORD],
-    layers: &[i32; REPLICATES],
-) -> [u8; REPLICATES] {
+fn none(bytes: &Bytes, more: &[i32; REPLICATES * PER_WORD], layers: &[i32; REPLICATES]) -> [u8; REPLICATES] {
     let mut none = [0; REPLICATES];
     for (i, (byte, more)) in bytes.0.iter().zip(more).enumerate() {
         let all = more + i32::from(*byte as i8) + layers[ORDER[i / PER_WORD]];
