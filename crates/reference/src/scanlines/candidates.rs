@@ -1,7 +1,7 @@
 //! The triangles before a group of receivers, joined to patches.
 
 use super::blocks::Blocks;
-use super::clip::Clip;
+use super::clip::{Clip, Cut};
 use super::eight::LANES;
 use super::facing::Standpoint;
 use super::whereabouts::Whereabouts;
@@ -20,11 +20,12 @@ struct Candidate {
     /// 1 or -1; 0 where it depends on the receiver.
     side: i8,
     clear: bool,
-    /// Whether it has to be cut before all receivers.
-    cut: bool,
+    cut: Cut,
     /// A bit for each side that a candidate before it has met.
     met: u8,
 }
+
+const NOT_CUT: Cut = Cut { near: false, far: false };
 
 /// All of them.
 #[derive(Default)]
@@ -94,8 +95,7 @@ impl Candidates {
                 some &= sure.clear | !standpoint.skips(block);
             }
             let sided = sure.clear & sure.sided;
-            let cuttable = if standpoint.clip().is_some() { sided } else { 0 };
-            let taken = some & sure.nearer & (sure.front | cuttable);
+            let taken = some & (sure.nearer | sure.cut_far) & (sure.front | sure.cut_near);
             let mut left = some & !taken;
             while left != 0 {
                 let lane = left.trailing_zeros() as usize;
@@ -116,7 +116,7 @@ impl Candidates {
                     owner: 0,
                     side,
                     clear: is(sure.clear),
-                    cut: !is(sure.front),
+                    cut: Cut { near: !is(sure.front), far: !is(sure.below) },
                     met: 0,
                 });
             }
@@ -154,7 +154,10 @@ impl Candidates {
         for Kept { candidate, side: k, beyond } in &self.kept {
             let one = &self.list[*candidate as usize];
             let ends = [one.corner(all, *k), one.corner(all, (k + 1) % 3)];
-            let ends = if one.cut { clip.and_then(|clip| clip.before(ends)) } else { Some(ends) };
+            let ends = match clip {
+                Some(clip) if one.cut != NOT_CUT => clip.between(ends, one.cut),
+                _ => Some(ends),
+            };
             let Some(ends) = ends else { continue };
             let mut edge = Edge { ends, owners: [one.owner; 2], sides: [one.adds(), 0], open: one.side == 0 };
             if let Some((beyond, reverse)) = *beyond {
@@ -165,9 +168,10 @@ impl Candidates {
             }
             put(edge);
         }
-        for one in self.list.iter().filter(|c| c.cut) {
-            if let Some(ends) = clip.and_then(|clip| clip.across(&one.corners(all))) {
-                put(Edge { ends, owners: [one.owner; 2], sides: [one.side, 0], open: false });
+        let Some(clip) = clip else { return };
+        for one in self.list.iter().filter(|c| c.cut != NOT_CUT) {
+            for ends in clip.across(&one.corners(all), one.cut).into_iter().flatten() {
+                put(Edge { ends, owners: [one.owner; 2], sides: [one.adds(), 0], open: one.side == 0 });
             }
         }
     }

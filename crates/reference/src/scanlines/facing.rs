@@ -16,6 +16,10 @@ use umbrage_scene::AreaLight;
 /// it was made of.
 pub(super) const ROUNDING: f32 = 4e-6;
 
+/// A triangle is cut before the light if it begins so many times farther before it than the receivers differ in
+/// where they stop to look: at most a 256th of it is then seen or not seen wrongly by one of them.
+const THROUGH: f64 = 256.0;
+
 /// Where the receivers of a group are, and how the light lies to them.
 pub(super) struct Standpoint {
     centre: Vec3,
@@ -38,8 +42,8 @@ pub(super) struct Standpoint {
 /// Between which depths a triangle surely stands before the light.
 enum Far {
     /// Along a direction, from the centre: above the first and below the second. Below the third it is behind
-    /// all receivers, above the fourth behind the light.
-    Plane { axis: Vec3, range: [f32; 2], out: [f32; 2] },
+    /// all receivers, above the fourth behind the light. One that begins below `through` is cut at `end`.
+    Plane { axis: Vec3, range: [f32; 2], out: [f32; 2], through: f32, end: f64 },
     /// Towards a sphere's centre; how far the receivers are from the group's, and the most that
     /// `corner . axis` may be.
     Ball { axis: Vec3, reach: f32, most: f32 },
@@ -52,11 +56,16 @@ pub(super) struct Sure {
     pub(super) front: u32,
     /// What of it is before the light is nearer than the light.
     pub(super) nearer: u32,
+    /// All of it is nearer than the light.
+    pub(super) below: u32,
     /// Surely not the receiver's own, in its plane or below its horizon.
     pub(super) clear: u32,
     /// All receivers are on one side of its plane, with all that is before them up to where triangles are cut; on which.
     pub(super) sided: u32,
     pub(super) behind: u32,
+    /// May be cut where it reaches behind the receivers, and through the light.
+    pub(super) cut_near: u32,
+    pub(super) cut_far: u32,
     /// Hides nothing from any receiver.
     pub(super) never: u32,
 }
@@ -89,7 +98,13 @@ impl Standpoint {
                 let axis = upright(&aim);
                 let [lowest, highest] = reach(axis).map(|t| t as f32);
                 let (range, out) = ([highest, f32::INFINITY], [lowest, f32::INFINITY]);
-                Far::Plane { axis: axis.as_vec3(), range, out }
+                Far::Plane {
+                    axis: axis.as_vec3(),
+                    range,
+                    out,
+                    through: f32::NEG_INFINITY,
+                    end: f64::INFINITY,
+                }
             }
             Spread::Area => {
                 let axis = upright(&aim);
@@ -100,7 +115,10 @@ impl Standpoint {
                 }
                 let most = light - 2.0 * LIGHT_GAP * (light - nearest);
                 let (range, out) = ([farthest as f32, most as f32], [nearest as f32, light as f32]);
-                Far::Plane { axis: axis.as_vec3(), range, out }
+                let end = light - LIGHT_GAP * (light - 0.5 * (nearest + farthest));
+                let doubt = 0.5 * LIGHT_GAP * (farthest - nearest) + f64::from(ROUNDING) * light;
+                let through = (end - THROUGH * doubt) as f32;
+                Far::Plane { axis: axis.as_vec3(), range, out, through, end }
             }
             Spread::Cone { one_minus_cos, distance: Distance::Sphere } => {
                 let cos = 1.0 - one_minus_cos;
@@ -117,12 +135,11 @@ impl Standpoint {
         };
         let light = matches!(aim.spread, Spread::Area).then(|| [aim.axis, aim.u, aim.v].map(DVec3::as_vec3));
         let clip = match &mut far {
-            Far::Plane { range: [nearest, _], out: [lowest, _], .. } => {
-                let clip = Clip::new(centre, half, &aim, [*lowest, *nearest].map(f64::from));
-                if let Some(clip) = &clip {
-                    *nearest = clip.height();
-                }
-                clip
+            Far::Plane { range: [nearest, _], out: [lowest, _], end, .. } => {
+                let heights = [*lowest, *nearest].map(f64::from);
+                let clip = Clip::new(centre, half, &aim, heights, *end);
+                *nearest = clip.height().unwrap_or(*nearest);
+                Some(clip)
             }
             Far::Ball { .. } => None,
         };
@@ -154,7 +171,7 @@ impl Standpoint {
         }
     }
 
-    /// Where triangles that reach behind the receivers are cut.
+    /// Where triangles are cut.
     pub(super) fn clip(&self) -> Option<&Clip> {
         self.clip.as_ref()
     }
@@ -214,7 +231,7 @@ impl Standpoint {
         let ([low, high], sway) = (self.heights, self.sway.dot(self.half));
         let clear = (Eight::all(high + sway) + rounding).below(highest);
         let below = (at_most + rounding).below(Eight::all(low - sway));
-        let [front, nearer, out] = self.between(&d, rounding);
+        let [front, nearer, out, through] = self.between(&d, rounding);
         // The height of the triangle's plane over the centre, times twice its area.
         let (p, q) = (sub(b, a), sub(c, a));
         let half = self.half.to_array();
@@ -237,6 +254,7 @@ impl Standpoint {
         let far_off = off + dot(widest, &abs(&normal));
         let sided = off.below(plane.abs()).and(far_off.below(ahead.signed_as(plane)));
         let behind = plane.below(Eight::all(0.0));
+        let all_nearer = nearer;
         let mut nearer = nearer;
         if let Some([middle, u, v]) = self.light {
             // Or its plane has all receivers on one side and all of the light on the other.
@@ -245,21 +263,22 @@ impl Standpoint {
             let size = dot(middle.abs(), &abs(&normal)) + plane.abs() + off + u + v;
             nearer = nearer.or((size * Eight::all(4.0 * LIGHT_GAP as f32)).below(beyond).and(sided));
         }
-        let nearer = nearer.bits();
-        let never = out.or(below).bits();
+        let [nearer, below, never, through] = bytes([nearer, all_nearer, out.or(below), through]);
         let [front, clear, sided, behind] = bytes([front, clear, sided, behind]);
-        Sure { front, nearer, clear, sided, behind, never }
+        let near = self.clip.as_ref().is_some_and(|clip| clip.height().is_some());
+        let cut_near = if near { clear & sided } else { 0 };
+        Sure { front, nearer, below, clear, sided, behind, cut_near, cut_far: clear & sided & through, never }
     }
 
     #[inline(always)]
-    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> [Mask; 3] {
+    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> [Mask; 4] {
         match self.far {
-            Far::Plane { axis, range: [nearest, most], out: [behind, beyond] } => {
+            Far::Plane { axis, range: [nearest, most], out: [behind, beyond], through, .. } => {
                 let [a, b, c] = [dot(axis, a), dot(axis, b), dot(axis, c)];
                 let (low, high) = (a.min(b).min(c) - rounding, a.max(b).max(c) + rounding);
                 let (front, nearer) = (Eight::all(nearest).below(low), high.below(Eight::all(most)));
                 let out = high.below(Eight::all(behind)).or(Eight::all(beyond).below(low));
-                [front, nearer, out]
+                [front, nearer, out, low.below(Eight::all(through))]
             }
             Far::Ball { axis, reach, most } => {
                 let away = length(axis, a).max(length(axis, b)).max(length(axis, c));
@@ -269,7 +288,7 @@ impl Standpoint {
                 let (low, high) = (a.min(b).min(c) - spread, a.max(b).max(c) + spread);
                 let (zero, most) = (Eight::all(0.0), Eight::all(most));
                 let behind = (high + Eight::all(reach * reach)).below(zero);
-                [zero.below(low), high.below(most), behind]
+                [zero.below(low), high.below(most), behind, zero.below(zero)]
             }
         }
     }
