@@ -8,7 +8,7 @@ const ALONE: u32 = u32::MAX;
 
 /// For each side of each triangle, one side of another triangle between the same two places. Side k goes from corner
 /// k to the next. Where more than two meet at an edge they are taken in pairs, those of opposite directions first.
-/// Twice the other side's number, 3 slot + k, and 1 if it goes the other way.
+/// 8 times the other's slot, 2 times its side, and 1 if it goes the other way.
 pub(crate) struct Mates(Vec<[u32; 3]>);
 
 /// A side of another triangle.
@@ -32,7 +32,7 @@ impl Mates {
     pub(crate) fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Self {
         let mut mates = vec![[ALONE; 3]; triangles.len()];
         // More do not fit; without mates all is slower and the same.
-        if 6 * triangles.len() >= ALONE as usize {
+        if 8 * triangles.len() >= ALONE as usize {
             return Self(mates);
         }
         let place = places(positions);
@@ -63,8 +63,10 @@ impl Mates {
             from < to
         };
         let mut pair = |a: u32, b: u32, opposite: bool| {
-            mates[a as usize / 3][a as usize % 3] = b << 1 | u32::from(opposite);
-            mates[b as usize / 3][b as usize % 3] = a << 1 | u32::from(opposite);
+            for (one, other) in [(a, b), (b, a)] {
+                let mate = other / 3 << 3 | other % 3 << 1 | u32::from(opposite);
+                mates[one as usize / 3][one as usize % 3] = mate;
+            }
         };
         for range in start.windows(2) {
             let list = &mut entries[range[0] as usize..range[1] as usize];
@@ -90,10 +92,8 @@ impl Mates {
     #[inline(always)]
     pub(crate) fn of(&self, slot: u32, k: usize) -> Option<Mate> {
         let mate = self.0[slot as usize][k];
-        (mate != ALONE).then(|| {
-            let slot = (mate >> 1) / 3;
-            Mate { slot, side: ((mate >> 1) - 3 * slot) as usize, opposite: mate & 1 != 0 }
-        })
+        let [slot, side] = [mate >> 3, mate >> 1 & 3];
+        (mate != ALONE).then_some(Mate { slot, side: side as usize, opposite: mate & 1 != 0 })
     }
 }
 

@@ -27,6 +27,9 @@ macro_rules! three {
     };
 }
 
+/// All lanes.
+const ALL: u32 = (1 << LANES) - 1;
+
 /// Eight triangles, or fewer: the last lanes repeat one.
 #[derive(Clone, Copy)]
 pub(crate) struct Block {
@@ -49,7 +52,8 @@ struct Boxes {
 pub(crate) struct Blocks {
     pub(crate) blocks: Vec<Block>,
     boxes: Vec<Boxes>,
-    filled: usize,
+    /// The block that is not full yet, if there is one.
+    begun: Option<usize>,
 }
 
 /// What eight triangles look like from one receiver.
@@ -81,27 +85,41 @@ impl Blocks {
     pub(crate) fn clear(&mut self) {
         self.blocks.clear();
         self.boxes.clear();
-        self.filled = 0;
+        self.begun = None;
     }
 
     /// Returns the lane.
     pub(crate) fn push(&mut self, slot: u32, corners: &[Vec3; 3]) -> usize {
-        let lane = self.filled % LANES;
-        if lane == 0 {
+        let at = self.begun.unwrap_or_else(|| {
             let corners = corners.map(|c| c.to_array().map(Eight::all));
             self.blocks.push(Block { corners, slots: [slot; LANES], used: 0 });
-        }
-        if let Some(block) = self.blocks.last_mut() {
-            for (into, corner) in block.corners.iter_mut().zip(corners) {
-                for (into, c) in into.iter_mut().zip(corner.to_array()) {
-                    into.0[lane] = c;
-                }
+            self.blocks.len() - 1
+        });
+        let block = &mut self.blocks[at];
+        let lane = block.used.count_ones() as usize;
+        for (into, corner) in block.corners.iter_mut().zip(corners) {
+            for (into, c) in into.iter_mut().zip(corner.to_array()) {
+                into.0[lane] = c;
             }
-            block.slots[lane] = slot;
-            block.used |= 1 << lane;
         }
-        self.filled += 1;
+        block.slots[lane] = slot;
+        block.used |= 1 << lane;
+        self.begun = (lane + 1 < LANES).then_some(at);
         lane
+    }
+
+    /// Some triangles of a block.
+    #[inline(always)]
+    pub(crate) fn push_some(&mut self, block: &Block, mut some: u32) {
+        if some == ALL {
+            self.blocks.push(*block);
+            return;
+        }
+        while some != 0 {
+            let lane = some.trailing_zeros() as usize;
+            some &= some - 1;
+            self.push(block.slots[lane], &block.triangle(lane));
+        }
     }
 
     /// Puts boxes around the blocks.

@@ -95,12 +95,14 @@ impl Volume {
     pub(super) fn filter(&self, from: &Blocks, into: &mut Blocks) {
         into.clear();
         for block in &from.blocks {
-            for lane in 0..block.used().count_ones() as usize {
-                let corners = block.triangle(lane);
-                if !self.misses(&corners) {
-                    into.push(block.slots[lane], &corners);
-                }
+            let mut some = Eight::all(0.0).below(Eight::all(1.0));
+            for plane in 0..self.planes {
+                let n = [0, 1, 2].map(|axis| Eight::all(self.normals[axis].0[plane]));
+                let [a, b, c] = block.corners();
+                let highest = dot(&n, a).max(dot(&n, b)).max(dot(&n, c));
+                some = some.and(highest.below(Eight::all(self.heights.0[plane])).not());
             }
+            into.push_some(block, block.used() & some.bits());
         }
     }
 
@@ -140,6 +142,11 @@ impl Volume {
             + normals[1] * Eight::all(place[1])
             + normals[2] * Eight::all(place[2])
     }
+}
+
+#[inline(always)]
+fn dot(n: &[Eight; 3], v: &[Eight; 3]) -> Eight {
+    n[0] * v[0] + n[1] * v[1] + n[2] * v[2]
 }
 
 /// The planes through the receiver that hold the light's outline, turned inwards.
