@@ -21,8 +21,6 @@ struct Candidate {
     side: i8,
     clear: bool,
     cut: Cut,
-    /// A bit for each side that a candidate before it has met.
-    met: u8,
 }
 
 const NOT_CUT: Cut = Cut { near: false, far: false };
@@ -32,6 +30,8 @@ const NOT_CUT: Cut = Cut { near: false, far: false };
 pub(super) struct Candidates {
     list: Vec<Candidate>,
     whereabouts: Whereabouts,
+    /// Of each candidate: a bit for each side that one before it has met.
+    met: Vec<u8>,
     kept: Vec<Kept>,
 }
 
@@ -117,7 +117,6 @@ impl Candidates {
                     side,
                     clear: is(sure.clear),
                     cut: Cut { near: !is(sure.front), far: !is(sure.below) },
-                    met: 0,
                 });
             }
         }
@@ -183,10 +182,12 @@ impl Candidates {
             self.whereabouts.set(candidate.slot, i as u32);
         }
         self.kept.clear();
+        self.met.clear();
+        self.met.resize(self.list.len(), 0);
         for i in 0..self.list.len() {
-            let Candidate { slot, side, met, .. } = self.list[i];
+            let Candidate { slot, side, .. } = self.list[i];
             for k in 0..3 {
-                if met >> k & 1 != 0 {
+                if self.met[i] >> k & 1 != 0 {
                     continue;
                 }
                 let mate = surfaces.mates.of(slot, k);
@@ -196,13 +197,13 @@ impl Candidates {
                     continue;
                 };
                 let reverse = mate.opposite;
-                let other = &mut self.list[beyond as usize];
-                other.met |= 1 << mate.side;
+                self.met[beyond as usize] |= 1 << mate.side;
                 // Two sides of one triangle.
                 if beyond as usize == i {
                     continue;
                 }
-                let cancel = if reverse { side == other.side } else { side == -other.side };
+                let other = self.list[beyond as usize].side;
+                let cancel = if reverse { side == other } else { side == -other };
                 if side != 0 && cancel {
                     let (a, b) = (self.root(i as u32), self.root(beyond));
                     self.list[a.max(b) as usize].parent = a.min(b);
