@@ -17,9 +17,9 @@ use umbrage_frame::View;
 use umbrage_reference::{
     AdapterChoice, GpuTracer, GroundTruth, Method, Points, Tracer, TruthGpu, TruthSettings,
 };
-use umbrage_scene::{AreaLight, Camera, Scene};
+use umbrage_scene::{AreaLight, Camera, Geometry, Scene};
 
-const CASES: [&str; 10] = [
+const CASES: [&str; 11] = [
     "colonnade",
     "sponza-sun",
     "atrium-sun",
@@ -30,6 +30,7 @@ const CASES: [&str; 10] = [
     "atrium4-rect",
     "atrium-wide",
     "atrium-real-sun",
+    "thicket",
 ];
 
 struct Options {
@@ -44,6 +45,8 @@ struct Options {
     export: Option<PathBuf>,
     serve: bool,
     rays: Option<PathBuf>,
+    leaves: usize,
+    layers: f32,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -185,6 +188,8 @@ fn options() -> Result<Options, Box<dyn Error>> {
         export: None,
         serve: false,
         rays: None,
+        leaves: 100_000,
+        layers: 2.0,
     };
     // Cargo adds `--bench`.
     let mut arguments = std::env::args().skip(1).filter(|a| a != "--bench");
@@ -197,6 +202,8 @@ fn options() -> Result<Options, Box<dyn Error>> {
                 let (width, height) = text.split_once('x').ok_or("WxH")?;
                 options.size = [width.parse()?, height.parse()?];
             }
+            "--leaves" => options.leaves = value()?.parse()?,
+            "--layers" => options.layers = value()?.parse()?,
             "--samples" => options.samples = value()?.parse()?,
             "--rounds" => options.rounds = value()?.parse()?,
             "--method" => options.methods.push(match value()?.as_str() {
@@ -238,6 +245,10 @@ fn case(options: &Options) -> Result<(Scene, Camera, AreaLight), Box<dyn Error>>
         let frame = scene.paths[0].frames[scene.paths[0].frames.len() / 2];
         return Ok((scene, frame.camera, frame.light));
     }
+    if options.case == "thicket" {
+        let (scene, light) = thicket(options.leaves, options.layers)?;
+        return Ok((scene, camera([0.0, 1.0, 5.0], [0.0, 0.3, 0.0]), light));
+    }
     let model = if options.case.starts_with("sponza") { "crytek_sponza.obj" } else { "atrium.obj" };
     let mut scene = Scene::load(Path::new(&options.models.join(model)))?;
     if options.case.starts_with("sponza") {
@@ -260,6 +271,36 @@ fn case(options: &Options) -> Result<(Scene, Camera, AreaLight), Box<dyn Error>>
         _ => sun([0.25, 0.9, 0.35], if options.case.contains("real") { 0.53 } else { 2.0 }),
     };
     Ok((scene, camera([-9.5, 2.6, 1.6], [1.0, 2.3, -1.2]), light))
+}
+
+/// Triangles that have no edge in common, in a layer of 8 x 2 x 8 m over a floor; a lamp of 1 m half-size above. What
+/// edges are worst at.
+fn thicket(leaves: usize, layers: f32) -> Result<(Scene, AreaLight), Box<dyn Error>> {
+    let mut state = 1u64;
+    let mut unit = move || {
+        // Constants of Knuth's MMIX.
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f32 / (1 << 24) as f32
+    };
+    let mut positions = vec![];
+    let floor = [[-10.0, -10.0], [-10.0, 10.0], [10.0, 10.0], [10.0, -10.0]];
+    positions.extend(floor.map(|[x, z]| Vec3::new(x, 0.0, z)));
+    let mut triangles = vec![[0, 1, 2], [0, 2, 3]];
+    // A triangle at random in a cube has 0.08 of a side's area on average, of which one half is seen.
+    let size = (layers * 64.0 / leaves as f32).sqrt();
+    for _ in 0..leaves {
+        let middle = Vec3::new(8.0 * unit() - 4.0, 2.0 + 2.0 * unit(), 8.0 * unit() - 4.0);
+        let first = positions.len() as u32;
+        for _ in 0..3 {
+            positions.push(middle + (Vec3::new(unit(), unit(), unit()) - 0.5) * 2.0 * size);
+        }
+        triangles.push([first, first + 1, first + 2]);
+    }
+    let material = vec![0; triangles.len()];
+    let mut scene = Scene::builtin("colonnade")?;
+    scene.geometry = Geometry { positions, triangles, material, ..Geometry::default() };
+    let light = AreaLight::Rect { centre: Vec3::Y * 6.0, half_u: Vec3::X, half_v: Vec3::Z };
+    Ok((scene, light))
 }
 
 /// Four triangles in place of each.

@@ -60,6 +60,7 @@ mod shafts;
 mod surfaces;
 mod tracer;
 mod truth;
+mod wide;
 
 pub use cache::{Cache, Source, TruthKey};
 pub use error::ReferenceError;

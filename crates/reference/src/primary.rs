@@ -6,7 +6,6 @@ mod finish;
 mod frustum;
 mod sheet;
 mod tile;
-mod wide;
 
 use crate::{Tracer, surfaces::Hit};
 use bands::Hits;

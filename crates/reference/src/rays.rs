@@ -46,7 +46,7 @@ pub(crate) fn crosses(
 }
 
 /// From the receiver to a sample.
-fn line(receiver: &Receiver, aim: &Aim, samples: &LightSamples, sample: usize) -> Line {
+pub(crate) fn line(receiver: &Receiver, aim: &Aim, samples: &LightSamples, sample: usize) -> Line {
     let to_light = samples.direction(aim, sample);
     let length = to_light.length();
     let end = match aim.spread {

@@ -1,8 +1,8 @@
 //! The rays through a view's pixel centres.
 
-use super::wide::{Wide, Wide3};
 use crate::scanlines::LANES;
 use crate::surfaces::Line;
+use crate::wide::{Wide, Wide3};
 use glam::{DMat4, DVec3, DVec4};
 use umbrage_frame::View;
 

@@ -1,9 +1,9 @@
 //! The exact answer of a row of pixels, and whether it is the one that a ray on its own finds.
 
 use super::tile::{APART, NONE, Place, Tile};
-use super::wide::{Wide, Wide3};
 use crate::scanlines::{Eight, LANES};
 use crate::surfaces::BOX_END;
+use crate::wide::{Wide, Wide3};
 use glam::{DVec3, Vec3};
 
 /// Eight pixels.

@@ -2,6 +2,7 @@
 
 use super::Rulings;
 use super::blocks::{Blocks, Survey};
+use super::eight::LANES;
 use super::facing::Standpoint;
 use super::frame::Frame;
 use super::lines::{Lines, REPLICATES};
@@ -36,6 +37,13 @@ const MANY: usize = 32;
 /// Parts of fewer receivers are not asked whether one patch hides the light from all of them.
 const WORTH_ASKING: usize = 8;
 
+/// Rays are faster where a receiver would have to look at more edges than this for each of its samples, or at triangles
+/// one by one, each of which takes as long as so many edges; or where more triangles than `LISTED` would have to be
+/// listed for each sample of a group (docs/performance.md).
+const PER_RAY: usize = 96;
+const TRIANGLE: usize = 8;
+const LISTED: usize = 4;
+
 /// Normals that differ by more in a coordinate are told apart before places.
 const TURNED: f64 = 0.5;
 
@@ -56,7 +64,9 @@ pub(super) struct Desk {
     /// What was hidden before one of them, per row.
     pub(super) before: Vec<[u32; REPLICATES]>,
     pub(super) surveys: Vec<(usize, Survey)>,
-    open: Vec<u32>,
+    pub(super) open: Vec<u32>,
+    /// Whether so much is before a part of a group that rays are faster.
+    pub(super) crowded: bool,
     /// A sun is the same from everywhere.
     sun: Option<(Aim, Option<Frame>)>,
     pub(super) lines: Lines,
@@ -177,6 +187,7 @@ impl<F: Find> WithSimd for Group<'_, F> {
         }
         // A light that is a point is asked by a ray for each receiver.
         let point = desk.aim(task.light, &receivers[0].receiver).is_some_and(|aim| aim.is_point());
+        let samples = rulings.samples();
         let rays = point || task.settings.method == Method::ScanlineRays;
         // Depth first: the list of a part is on the desk until both of its halves are done.
         let mut parts = vec![(0..receivers.len(), 0)];
@@ -198,12 +209,13 @@ impl<F: Find> WithSimd for Group<'_, F> {
                 if desk.lists.len() <= depth {
                     desk.lists.resize_with(depth + 1, Blocks::default);
                 }
-                Arch::new().dispatch(List { surfaces, volume: &volume, desk, depth });
+                let most = range.len() * samples * LISTED;
+                let all = Arch::new().dispatch(List { surfaces, volume: &volume, desk, depth, most });
                 let candidates = desk.lists[depth].blocks.len();
                 let shrinks = depth == 0
                     || 4 * candidates < 3 * desk.lists[depth - 1].blocks.len()
                     || part.len() > MANY;
-                if part.len() > FEW && candidates > SIMPLE && shrinks {
+                if all && part.len() > FEW && candidates > SIMPLE && shrinks {
                     let middle = range.start + halve(part);
                     if range.contains(&middle) && middle > range.start {
                         parts.push((middle..range.end, depth + 1));
@@ -211,7 +223,12 @@ impl<F: Find> WithSimd for Group<'_, F> {
                         continue;
                     }
                 }
-                Arch::new().dispatch(Sort { surfaces, standpoint: standpoint.as_ref(), desk, depth });
+                if all {
+                    Arch::new().dispatch(Sort { surfaces, standpoint: standpoint.as_ref(), desk, depth });
+                }
+                let alone = desk.blocks.blocks.len() + desk.cards.blocks.len();
+                let tests = desk.patches.len() + TRIANGLE * LANES * alone;
+                desk.crowded = !all || tests > samples * PER_RAY;
             }
             let mut last = 0;
             for placed in &receivers[range] {
@@ -228,19 +245,23 @@ struct List<'a> {
     volume: &'a Volume,
     desk: &'a mut Desk,
     depth: usize,
+    most: usize,
 }
 
 impl WithSimd for List<'_> {
-    type Output = ();
+    /// Whether all is listed: a list may be too long to be worth it.
+    type Output = bool;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { surfaces, volume, desk, depth } = self;
+    fn with_simd<S: Simd>(self, _: S) -> bool {
+        let Self { surfaces, volume, desk, depth, most } = self;
         if depth == 0 {
-            volume.gather(surfaces, (&mut desk.open, &mut desk.lists[0], &mut desk.cards));
-        } else if let [.., from, into] = &mut desk.lists[..=depth] {
+            return volume.gather(surfaces, (&mut desk.open, &mut desk.lists[0], &mut desk.cards), most);
+        }
+        if let [.., from, into] = &mut desk.lists[..=depth] {
             volume.filter(from, into);
         }
+        true
     }
 }
 

@@ -13,6 +13,7 @@
 
 use super::eight::{Eight, LANES};
 use super::frame::{Frame, Turn};
+use super::packets::Packet;
 use crate::aim::Aim;
 use crate::owen::{mix, unit};
 use crate::samples::LightSamples;
@@ -236,6 +237,36 @@ impl Lines {
             }
         }
         count
+    }
+
+    /// Asks rays in eights for every sample that is not hidden yet.
+    #[inline(always)]
+    pub(super) fn trace_together(
+        &mut self,
+        (frame, turn, aim): (&Frame, &Turn, &Aim),
+        (packet, open_nodes): (&mut Packet, &mut Vec<u32>),
+        one: &mut LightSamples,
+    ) {
+        for row in &mut self.rows {
+            for i in 0..BITS {
+                let mut open = 0;
+                for k in 0..REPLICATES {
+                    open |= (row.inside[k] & !row.hidden[k]) >> i << k & 1 << k;
+                }
+                if open == 0 {
+                    continue;
+                }
+                for k in 0..REPLICATES {
+                    let along = 2.0 * (i as f32 + row.shift.0[k]) / self.per_row - 1.0;
+                    one.set_place(aim, frame.place(turn, along, [row.y.0[k], row.cos.0[k]]));
+                    packet.aim(k, aim, one);
+                }
+                let hidden = packet.blocked(open, open_nodes);
+                for k in 0..REPLICATES {
+                    row.hidden[k] |= (hidden >> k & 1) << i;
+                }
+            }
+        }
     }
 
     /// Asks for every sample that is not hidden yet.

@@ -7,6 +7,7 @@ use super::groups::Desk;
 use super::lines::Lines;
 use super::lines::Ruling;
 use super::outline::{self, Edge, Outline};
+use super::packets::Packet;
 use super::patches::Past;
 use super::veil::Veil;
 use crate::aim::{Aim, Elevation};
@@ -39,8 +40,20 @@ pub(super) fn look(
         last,
     });
     match &task.tracer.surfaces.cutouts {
-        Some(cutouts) if !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => Arch::new()
-            .dispatch(Veil { task, cutouts, receiver, aim, frame, turn, ruling, seed, desk, sight }),
+        Some(cutouts) if !desk.crowded && !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => {
+            Arch::new().dispatch(Veil {
+                task,
+                cutouts,
+                receiver,
+                aim,
+                frame,
+                turn,
+                ruling,
+                seed,
+                desk,
+                sight,
+            })
+        }
         _ => sight,
     }
 }
@@ -96,6 +109,14 @@ fn past_whole(
         }
         let hidden = |samples: &LightSamples| rays::blocked(surfaces, (receiver, aim), samples, 0);
         lines.trace((frame, turn, aim), &mut desk.samples, hidden);
+        return Sight::Sampled;
+    }
+    if desk.crowded {
+        if !drawn {
+            ruling.fill(lines, frame, turn, seed);
+        }
+        let mut packet = Packet::new(surfaces, receiver);
+        lines.trace_together((frame, turn, aim), (&mut packet, &mut desk.open), &mut desk.samples);
         return Sight::Sampled;
     }
     // A second set of samples meets the same.

@@ -17,6 +17,7 @@ mod groups;
 mod lines;
 mod look;
 mod outline;
+mod packets;
 mod patches;
 mod shade;
 mod veil;
@@ -73,6 +74,11 @@ impl Rulings {
         let ruling = |samples: u32| Ruling::new(samples.min(most).div_ceil(REPLICATES as u32), round);
         let basis = (settings.basis_samples > 0).then(|| ruling(settings.basis_samples));
         Self { mean: ruling(settings.samples.saturating_mul(2)), basis }
+    }
+
+    /// Of both sets.
+    fn samples(&self) -> usize {
+        self.mean.samples() + self.basis.as_ref().map_or(0, Ruling::samples)
     }
 }
 

@@ -52,6 +52,11 @@ pub(super) enum Past {
 }
 
 impl Patches {
+    /// Edges, in all their lanes.
+    pub(super) fn len(&self) -> usize {
+        LANES * self.edges.blocks.len()
+    }
+
     /// What the receiver that looked last sees.
     pub(super) fn past(&self) -> Past {
         self.past

@@ -1,7 +1,7 @@
 //! Everything between a group of receivers and the light: one walk of the tree for all of them.
 
 use super::blocks::Blocks;
-use super::eight::Eight;
+use super::eight::{Eight, LANES};
 use super::groups::Placed;
 use crate::aim::Aim;
 use crate::receiver::Receiver;
@@ -59,13 +59,15 @@ impl Volume {
         volume
     }
 
-    /// Lists the triangles that may hide a part of the light from any of the receivers; cut-out ones apart.
+    /// Lists the triangles that may hide a part of the light from any of the receivers; cut-out ones apart. Gives up,
+    /// and says so, if there are more than `most`.
     #[inline(always)]
     pub(super) fn gather(
         &self,
         surfaces: &Surfaces,
         (open, blocks, cards): (&mut Vec<u32>, &mut Blocks, &mut Blocks),
-    ) {
+        most: usize,
+    ) -> bool {
         blocks.clear();
         cards.clear();
         open.clear();
@@ -80,6 +82,9 @@ impl Volume {
                 open.extend([first, first + 1]);
                 continue;
             }
+            if LANES * (blocks.blocks.len() + cards.blocks.len()) > most {
+                return false;
+            }
             for slot in first..first + node.prim_count {
                 let corners = surfaces.corners[slot as usize];
                 if !self.misses(&corners) {
@@ -88,6 +93,7 @@ impl Volume {
             }
         }
         cards.close();
+        true
     }
 
     /// Lists those of a list.

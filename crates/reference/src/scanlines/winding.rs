@@ -316,3 +316,73 @@ fn turned(turn: &Turn, [x, y]: &[Eight; 2]) -> [Eight; 2] {
         Eight::all(-turn.yx) * *x + Eight::all(turn.xx) * *y,
     ]
 }
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use super::*;
+    use crate::aim::Aim;
+    use crate::owen::{mix, unit};
+    use crate::receiver::Receiver;
+    use glam::{DVec3, Vec3};
+    use pulp::x86::V3;
+    use umbrage_scene::AreaLight;
+
+    fn cone(radians: f32) -> Option<Cone> {
+        let receiver = Receiver::in_air(DVec3::ZERO);
+        let sun = AreaLight::Sun { direction_to_light: Vec3::Y, angular_diameter_radians: radians };
+        Frame::new(&receiver, &Aim::new(&sun, &receiver)?)?.cone
+    }
+
+    fn same<const WORDS: usize>(simd: V3, cone: Option<Cone>, mut random: impl FnMut() -> f32) {
+        let mut words = [[Bytes([0; REPLICATES * PER_WORD]); WORDS]; 2];
+        let mut layers = [[0; REPLICATES]; 2];
+        for step in 0..400 {
+            let mut row = Row::default();
+            for k in 0..REPLICATES {
+                (row.y.0[k], row.cos.0[k], row.shift.0[k]) =
+                    (random(), 1.0 - 0.1 * random().abs(), random().abs());
+            }
+            let (low, high) = (random(), random());
+            // Slopes of all sizes, edges beyond either side, ends at a row.
+            let slope = 3.0 * random() / random();
+            let low = if step % 8 == 0 { row.y.0[step / 8 % REPLICATES] } else { low.min(high) };
+            let run =
+                Run { slope, at: 2.0 * random(), low, high: low.max(high), weight: step as i32 % 5 - 2 };
+            Portable.before(&run, &row, &mut layers[0]);
+            simd.before(&run, &row, &mut layers[1]);
+            let half = 4.0 * WORDS as f32;
+            Portable.across(&run, &row, (cone.as_ref(), half), &mut words[0]);
+            simd.across(&run, &row, (cone.as_ref(), half), &mut words[1]);
+            assert_eq!(layers[0], layers[1], "step {step}");
+            for (a, b) in words[0].iter().zip(&words[1]) {
+                assert_eq!(a.0, b.0, "step {step}, {WORDS} words");
+                for shift in [-300, -1, 0, 1, 127, 128, 300] {
+                    let layers = layers[0].map(|n| n % 7 + shift);
+                    assert_eq!(
+                        Portable.none(a, &layers),
+                        simd.none(b, &layers),
+                        "step {step}, {shift} layers"
+                    );
+                }
+            }
+        }
+        assert!(layers[0].iter().any(|&n| n != 0) && words[0][0].0.iter().any(|&n| n != 0));
+    }
+
+    /// With AVX2 and without: the same bytes. A processor without it has nothing to compare.
+    #[test]
+    fn registers_do_not_matter() {
+        let Some(simd) = V3::try_new() else { return };
+        let mut state = 5;
+        let mut random = || {
+            state = mix(state);
+            2.0 * unit(state as u32) - 1.0
+        };
+        for cone in [None, cone(0.05), cone(1.5)] {
+            same::<1>(simd, cone, &mut random);
+            same::<2>(simd, cone, &mut random);
+            same::<3>(simd, cone, &mut random);
+            same::<MOST_WORDS>(simd, cone, &mut random);
+        }
+    }
+}

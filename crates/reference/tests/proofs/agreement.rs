@@ -216,6 +216,41 @@ fn hundreds_of_layers() {
     }
 }
 
+/// Triangles by themselves, so many that rays are faster: `samples * 96` edges, three of each triangle.
+pub(crate) fn thicket(random: &mut Random, leaves: usize) -> Vec<[Vec3; 3]> {
+    let mut triangles = floor(20.0).to_vec();
+    for _ in 0..leaves {
+        let place = random.vector() * Vec3::new(1.0, 0.4, 1.0) + Vec3::new(0.7, 2.5, 0.9);
+        triangles.push([0, 1, 2].map(|_| place + random.vector() * 0.02));
+    }
+    triangles
+}
+
+/// Rays in eights find what single ones do, in the same operations: no sample differs. Edges would tie at some of
+/// them: 24,000 triangles have 72,000 edges, each of which ties at one point in 8,000.
+#[test]
+fn a_thicket_is_asked_by_rays() {
+    let mut random = Random(41);
+    let tracer = Tracer::new(&scene(&thicket(&mut random, 24_000))).expect("a scene");
+    let points = on_floor((0..150).map(|_| random.unit() - 0.5), 0.5);
+    let centre = Vec3::new(1.8, 5.0, 1.2);
+    let lights = [
+        AreaLight::Sun { direction_to_light: Vec3::new(0.3, 1.0, 0.2), angular_diameter_radians: 1.2 },
+        AreaLight::Disk { centre, normal: Vec3::Y, radius_world: 2.0 },
+        AreaLight::Rect { centre, half_u: Vec3::X * 2.0, half_v: Vec3::Z * 2.0 },
+        AreaLight::Sphere { centre, radius_world: 1.5 },
+    ];
+    for light in lights {
+        let pair = both(&tracer, &points, &light, PAIRS[1]);
+        assert!(differences(&pair).iter().all(|&d| d == 0), "{light:?}: {:?}", differences(&pair));
+        let partial = pair[0].mean.iter().filter(|&&m| m > 0.0 && m < 1.0).count();
+        assert!(partial > 140, "{light:?}: {partial} in a penumbra");
+        let irradiance = [Method::ScanlineRays, Method::Scanlines]
+            .map(|method| tracer.irradiance(&points, &light, &settings(128, method)));
+        assert_eq!(irradiance[0].shadowed, irradiance[1].shadowed, "{light:?}");
+    }
+}
+
 /// All samples are one: every method says lit or hidden, and the same.
 #[test]
 fn lights_without_a_size() {

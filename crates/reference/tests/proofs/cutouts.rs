@@ -1,6 +1,6 @@
 //! Cut-out surfaces: closed forms, and the ways to the truth against each other.
 
-use crate::agreement::{assert_ties_only, differences, lights};
+use crate::agreement::{assert_ties_only, differences, lights, thicket};
 use crate::common::*;
 use crate::primary::assert_rays;
 use glam::{Vec2, Vec3};
@@ -31,6 +31,22 @@ fn checker(size: u32) -> AlphaMask {
 fn truth(scene: &Scene, points: &Points, light: &AreaLight, method: Method) -> GroundTruth {
     let tracer = Tracer::new(scene).expect("a scene");
     tracer.truth(points, light, &settings(512, method))
+}
+
+/// Rays in eights, where there are too many leaves for anything else: as single ones, sample for sample.
+#[test]
+fn a_thicket_of_leaves() {
+    let mut random = Random(43);
+    let scene = cut(scene(&thicket(&mut random, 24_000)), 2, (checker(4), 1.0));
+    let points = on_floor((0..60).map(|_| random.unit() - 0.5), 0.5);
+    let centre = Vec3::new(1.8, 5.0, 1.2);
+    let light = AreaLight::Rect { centre, half_u: Vec3::X * 2.0, half_v: Vec3::Z * 2.0 };
+    let pair = [Method::ScanlineRays, Method::Scanlines].map(|method| truth(&scene, &points, &light, method));
+    assert_eq!(pair[0].mean, pair[1].mean);
+    let whole = Scene { materials: vec![Material::plain("leaf", Vec3::ONE); 2], ..scene };
+    let whole = truth(&whole, &points, &light, Method::Scanlines);
+    let lighter = pair[0].mean.iter().zip(&whole.mean).filter(|(cut, whole)| *cut > *whole).count();
+    assert!(lighter > 55, "{lighter} of 60 see more through cut-out leaves");
 }
 
 /// Fifty cards strewn over a floor, with blocks among them.

@@ -7,13 +7,13 @@ use std::ops::{Add, Div, Mul, Sub};
 
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-pub(super) struct Wide(pub(super) [f64; LANES]);
+pub(crate) struct Wide(pub(crate) [f64; LANES]);
 
 #[derive(Clone, Copy)]
-pub(super) struct Wide3 {
-    pub(super) x: Wide,
-    pub(super) y: Wide,
-    pub(super) z: Wide,
+pub(crate) struct Wide3 {
+    pub(crate) x: Wide,
+    pub(crate) y: Wide,
+    pub(crate) z: Wide,
 }
 
 macro_rules! each {
@@ -38,12 +38,12 @@ each!(Div, div, /);
 
 impl Wide {
     #[inline(always)]
-    pub(super) fn all(value: f64) -> Self {
+    pub(crate) fn all(value: f64) -> Self {
         Self([value; LANES])
     }
 
     #[inline(always)]
-    pub(super) fn sqrt(self) -> Self {
+    pub(crate) fn sqrt(self) -> Self {
         let mut out = self.0;
         for lane in &mut out {
             *lane = lane.sqrt();
@@ -53,31 +53,31 @@ impl Wide {
 }
 
 impl Wide3 {
-    pub(super) const ZERO: Self =
+    pub(crate) const ZERO: Self =
         Self { x: Wide([0.0; LANES]), y: Wide([0.0; LANES]), z: Wide([0.0; LANES]) };
 
     #[inline(always)]
-    pub(super) fn all(v: DVec3) -> Self {
+    pub(crate) fn all(v: DVec3) -> Self {
         Self { x: Wide::all(v.x), y: Wide::all(v.y), z: Wide::all(v.z) }
     }
 
     #[inline(always)]
-    pub(super) fn set(&mut self, lane: usize, v: DVec3) {
+    pub(crate) fn set(&mut self, lane: usize, v: DVec3) {
         (self.x.0[lane], self.y.0[lane], self.z.0[lane]) = (v.x, v.y, v.z);
     }
 
     #[inline(always)]
-    pub(super) fn lane(&self, lane: usize) -> DVec3 {
+    pub(crate) fn lane(&self, lane: usize) -> DVec3 {
         DVec3::new(self.x.0[lane], self.y.0[lane], self.z.0[lane])
     }
 
     #[inline(always)]
-    pub(super) fn dot(self, other: Self) -> Wide {
+    pub(crate) fn dot(self, other: Self) -> Wide {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     #[inline(always)]
-    pub(super) fn cross(self, other: Self) -> Self {
+    pub(crate) fn cross(self, other: Self) -> Self {
         Self {
             x: self.y * other.z - other.y * self.z,
             y: self.z * other.x - other.z * self.x,
