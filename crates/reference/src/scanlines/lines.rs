@@ -293,3 +293,42 @@ impl Lines {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::receiver::Receiver;
+    use glam::{DVec3, Vec3};
+    use umbrage_scene::AreaLight;
+
+    /// A row that leaves a rectangle comes back on its other side: each replicate has all of its samples, no more.
+    #[test]
+    fn rows_of_a_rectangle_wrap_round() {
+        let receiver = Receiver::in_air(DVec3::ZERO);
+        let light = AreaLight::Rect { centre: Vec3::Y * 3.0, half_u: Vec3::X, half_v: Vec3::Z };
+        let aim = Aim::new(&light, &receiver).expect("a light");
+        let frame = Frame::new(&receiver, &aim).expect("not edge-on");
+        let mut lines = Lines::default();
+        for samples in [1, 16, 100, 128, 256, 1000, 2048] {
+            let ruling = Ruling::new(samples, false);
+            let (mut rising, mut parted) = (0, 0);
+            for seed in 0..500 {
+                let turn = ruling.turn(seed);
+                rising += u32::from(turn.yx > 0.0);
+                ruling.fill(&mut lines, &frame, &turn, seed);
+                let all = ruling.rows as u32 * ruling.per_row;
+                assert_eq!(lines.inside(), [all; REPLICATES], "{samples} samples, seed {seed}");
+                // Runs that start or end at a side, without gaps.
+                for inside in lines.rows.iter().flat_map(|row| row.inside) {
+                    let run = inside >> inside.trailing_zeros().min(31);
+                    assert_eq!(run & run.wrapping_add(1), 0, "{inside:b}");
+                    let ends = inside & 1 != 0 || inside >> (ruling.per_row - 1) == 1;
+                    assert!(inside == 0 || ends, "{inside:b}");
+                    parted += u32::from(inside != 0 && inside.count_ones() < ruling.per_row);
+                }
+            }
+            assert!(rising > 150 && rising < 350, "{rising} of 500 rise");
+            assert!(parted > 500 || ruling.per_row == 1, "{samples} samples: {parted} rows are parted");
+        }
+    }
+}
