@@ -53,7 +53,8 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("atrium", type=Path, help="OBJ of the atrium, named atrium.obj")
     parser.add_argument("--umbrage", type=Path, default=cases.REPOSITORY / "target/release/umbrage")
-    parser.add_argument("--size", default="480x270")
+    parser.add_argument("--size", default="1920x1080")
+    parser.add_argument("--truth", type=int, default=1024, help="Sobol points in each half of what errors are taken against")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--independent", action="store_true", help="Mitsuba's independent sampler too: ten times slower")
     parser.add_argument("--variant", default="llvm_ad_rgb")
@@ -69,7 +70,7 @@ class Race:
         self.case = cases.make(CASE, options.atrium, folder)
         self.peer = Peer(self.case)
         # Other samples than those in the race: Sobol's points, not scanlines.
-        self.hit, self.truth, self.own = self.umbrage(4096, "shafts")
+        self.hit, self.truth, self.own = self.umbrage(options.truth, "shafts")
 
     def umbrage(self, half, method):
         out = self.folder / "ours.exr"
@@ -158,7 +159,7 @@ def written(ours, theirs, times, options):
 Written by `tests/peers/race.py`; the README there says how to run it.
 
 V of the atrium with the rectangular lamp, {options.size}, one camera ray through the middle of each pixel. The
-error is that of V over the points that are hit (RMSE) against 8192 of umbrage's Sobol points, which
+error is that of V over the points that are hit (RMSE) against {2 * options.truth} of umbrage's Sobol points, which
 neither uses here, and whose own variance is taken off. Seconds are those of camera rays and V, without loading, trees and compilation:
 medians of {options.rounds} rounds in turns, both on all cores of one machine that had other work to do. Only the
 ratio means something.

@@ -64,7 +64,7 @@ impl Mates {
         };
         let mut pair = |a: u32, b: u32, opposite: bool| {
             for (one, other) in [(a, b), (b, a)] {
-                let mate = other / 3 << 3 | other % 3 << 1 | u32::from(opposite);
+                let mate = (other / 3) << 3 | (other % 3) << 1 | u32::from(opposite);
                 mates[one as usize / 3][one as usize % 3] = mate;
             }
         };
