@@ -63,6 +63,11 @@ impl Receiver {
         Self { position, normal: DVec3::ZERO, slot: None }
     }
 
+    /// Whether it has neither a surface of its own nor a horizon.
+    pub(crate) fn is_in_air(&self) -> bool {
+        self.slot.is_none() && self.normal == DVec3::ZERO
+    }
+
     /// Whether a triangle cannot shadow this point: its own, one in the same plane, or one that
     /// lies wholly below the horizon.
     pub(crate) fn skips(&self, slot: u32, corners: &[Vec3; 3]) -> bool {

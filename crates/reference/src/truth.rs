@@ -126,8 +126,8 @@ pub(crate) enum Sight {
 
 impl Tracer {
     /// The truth at points. `light` may differ from the scene's first. A point's values depend on
-    /// its place, the light and the settings alone: not on the other points, nor on the number of
-    /// threads.
+    /// its place, the light and the settings alone: not on the number of threads, nor on the other points
+    /// (on scanlines but for samples within rounding of an edge).
     ///
     /// # Panics
     /// When the lists of `points` differ in length: a programming error, never a user's.

@@ -153,8 +153,12 @@ impl Blocks {
         let m = &frame.light_from_world;
         let (x, y, z) = (m.row(0), m.row(1), m.row(2));
         let d = three!(axis => boxes.centre[axis] - Eight::all(p[axis]));
-        // Twenty roundings of f32 are below 2e-6.
-        let h = three!(axis => boxes.half[axis] + Eight::all(2e-6) * (d[axis].abs() + boxes.half[axis]));
+        // Twenty roundings of f32 are below 2e-6; the place and the centre have an ulp of their own.
+        let ulps = Eight::all(1.2e-7 * frame.extent);
+        let h = three!(axis => {
+            let size = d[axis].abs() + boxes.half[axis];
+            boxes.half[axis] + Eight::all(2e-6) * size + ulps
+        });
         // Inside, Z is positive and as large as X and Y; the light ends before the last depth.
         let least = most(z - x, &d, &h).min(most(z + x, &d, &h));
         let least = least.min(most(z - y, &d, &h)).min(most(z + y, &d, &h)).min(most(z, &d, &h));
@@ -253,7 +257,10 @@ impl Block {
         let size = three!(axis => a[axis].abs().max(b[axis].abs()).max(c[axis].abs()));
         let rounding = Eight::all(2e-6) * (Eight::all(frame.extent) + size[0] + size[1] + size[2]);
         let n = frame.normal;
-        let clear = rounding.below(dot(n, &a).max(dot(n, &b)).max(dot(n, &c)));
+        let mut clear = rounding.below(dot(n, &a).max(dot(n, &b)).max(dot(n, &c)));
+        if frame.in_air {
+            clear = Eight::all(0.0).below(Eight::all(1.0));
+        }
         let p = three!(axis => b[axis] - a[axis]);
         let q = three!(axis => c[axis] - a[axis]);
         let mut height = Eight::all(0.0);

@@ -1,7 +1,7 @@
 //! The triangles before a group of receivers, joined to patches.
 
 use super::blocks::Blocks;
-use super::clip::{Clip, Cut};
+use super::clip::Cut;
 use super::eight::LANES;
 use super::facing::Standpoint;
 use super::whereabouts::Whereabouts;
@@ -149,7 +149,9 @@ impl Candidates {
 
     /// Names every edge at which the number of layers may change, with triangles cut at a plane.
     #[inline(always)]
-    pub(super) fn edges(&self, all: &Blocks, clip: Option<&Clip>, mut put: impl FnMut(Edge)) {
+    pub(super) fn edges(&self, all: &Blocks, standpoint: Option<&Standpoint>, mut put: impl FnMut(Edge)) {
+        let Some(standpoint) = standpoint else { return };
+        let clip = standpoint.clip();
         for Kept { candidate, side: k, beyond } in &self.kept {
             let one = &self.list[*candidate as usize];
             let ends = [one.corner(all, *k), one.corner(all, (k + 1) % 3)];

@@ -1,6 +1,9 @@
 //! Triangles that reach behind the receivers of a group are cut at a plane before them, those that reach through a
 //! flat light at the light.
 //!
+//! A place where a side is cut is rounded to f32, as vertices are, and may bend the side by half an ulp of its coordinates:
+//! of a few samples within a centimetre of a receiver in a hall, of more where coordinates are hundreds of metres.
+//!
 //! What is cut off hides nothing. Behind the receivers it does not if the triangle's own plane leaves all of the receivers' views up to the cut on one
 //! side: `facing` asks for that.
 
@@ -11,8 +14,8 @@ use glam::{DVec3, Vec3};
 /// How far before the receivers, in halves of the longest side of their box.
 const BEFORE: f64 = 0.2;
 
-/// And in metres at least, for receivers at one place: hundreds of ulps of a coordinate of some metres.
-const LEAST: f64 = 1e-5;
+/// And at least, for receivers at one place: in metres, and in ulps of the largest coordinate.
+const LEAST: [f64; 2] = [1e-5, 256.0 * f32::EPSILON as f64];
 
 /// Ways to the light longer than this over their depth are too flat to be followed up to a plane.
 const STEEPEST: f64 = 8.0;
@@ -55,8 +58,9 @@ pub(super) fn upright(aim: &Aim) -> DVec3 {
 
 impl Near {
     /// Before receivers between two heights, in a box; `aim` is the centre's. `None` where the light is too flat.
-    fn new(half: Vec3, axis: DVec3, aim: &Aim, [lowest, highest]: [f64; 2]) -> Option<Self> {
-        let height = highest + f64::from(half.max_element()) * BEFORE + LEAST;
+    fn new([centre, half]: [Vec3; 2], axis: DVec3, aim: &Aim, [lowest, highest]: [f64; 2]) -> Option<Self> {
+        let least = LEAST[0].max(LEAST[1] * f64::from(centre.abs().max_element()));
+        let height = highest + f64::from(half.max_element()) * BEFORE + least;
         // Ways to the light that end at this depth: their middle, and how far others end from it.
         let depth = height - lowest;
         let (rise, half) = (axis.dot(aim.axis), half.as_dvec3());
@@ -76,7 +80,7 @@ impl Clip {
     /// begins.
     pub(super) fn new(centre: Vec3, half: Vec3, aim: &Aim, heights: [f64; 2], far: f64) -> Self {
         let axis = upright(aim);
-        Self { axis, centre: centre.as_dvec3(), near: Near::new(half, axis, aim, heights), far }
+        Self { axis, centre: centre.as_dvec3(), near: Near::new([centre, half], axis, aim, heights), far }
     }
 
     /// Of the plane before the receivers, if there is one.
@@ -88,13 +92,19 @@ impl Clip {
         self.near.as_ref().map_or([Vec3::ZERO; 2], |near| near.drift)
     }
 
-    /// The part of a side that is between the planes.
-    pub(super) fn between(&self, ends: [Vec3; 2], cut: Cut) -> Option<[Vec3; 2]> {
-        let mut ends = Some(ends);
+    /// The part of a side that is between the planes. Each end that is not moves to its own plane, along the whole side,
+    /// so that all triangles that have it there have the same place.
+    pub(super) fn between(&self, [from, to]: [Vec3; 2], cut: Cut) -> Option<[Vec3; 2]> {
+        let mut ends = [from, to];
         for plane in self.planes(cut).into_iter().flatten() {
-            ends = ends.and_then(|ends| self.before(ends, plane));
+            match (self.inside(from, plane), self.inside(to, plane)) {
+                (true, true) => {}
+                (true, false) => ends[1] = self.at(from, to, plane),
+                (false, true) => ends[0] = self.at(from, to, plane),
+                (false, false) => return None,
+            }
         }
-        ends
+        Some(ends)
     }
 
     /// The edges that a triangle gets where it is cut, the way that its other sides go round.
@@ -117,15 +127,6 @@ impl Clip {
     fn planes(&self, cut: Cut) -> [Option<[f64; 2]>; 2] {
         let near = self.near.as_ref().filter(|_| cut.near);
         [near.map(|near| [near.height, 1.0]), cut.far.then_some([self.far, -1.0])]
-    }
-
-    fn before(&self, [from, to]: [Vec3; 2], plane: [f64; 2]) -> Option<[Vec3; 2]> {
-        match (self.inside(from, plane), self.inside(to, plane)) {
-            (true, true) => Some([from, to]),
-            (true, false) => Some([from, self.at(from, to, plane)]),
-            (false, true) => Some([self.at(from, to, plane), to]),
-            (false, false) => None,
-        }
     }
 
     fn inside(&self, place: Vec3, [height, side]: [f64; 2]) -> bool {

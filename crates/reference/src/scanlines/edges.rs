@@ -102,6 +102,9 @@ impl Edges {
         let passing = zero.below(from[1]).same(zero.below(to[1])).not();
         // Where it crosses that row, a x + c = 0: on the left where both have one sign.
         let left = (-(p * r)).below(zero);
+        // What f32 tells of that may be noise for an edge along the row: its ends are not.
+        let (west, east) = (from[0].min(to[0]), from[0].max(to[0]));
+        let left = left.and(end.below(west).not()).or(east.below(-end));
         let [apart, rising, passing, _] = bytes([apart, rising, passing.and(left), left]);
         Seen {
             line,

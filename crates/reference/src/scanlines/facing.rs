@@ -1,6 +1,7 @@
 //! What is sure of eight triangles from all receivers of a group at once.
 //!
-//! Bounds are f32 with every rounding counted; what is not sure is asked again at each receiver.
+//! Bounds are f32; what is not sure is asked again at each receiver. Of triangles so small or so thin that f32 does not tell
+//! their sides a side may be sure and wrong: their pictures are as thin as f32's rounding.
 
 use super::blocks::Block;
 use super::clip::{Clip, upright};
@@ -16,9 +17,9 @@ use umbrage_scene::AreaLight;
 /// it was made of.
 pub(super) const ROUNDING: f32 = 4e-6;
 
-/// A triangle is cut before the light if it begins so many times farther before it than the receivers differ in
-/// where they stop to look: at most a 256th of it is then seen or not seen wrongly by one of them.
-const THROUGH: f64 = 256.0;
+/// Receivers differ in where exactly they stop to look for a triangle that crosses the light's plane. It is cut at one
+/// place for all of them if that moves its picture by less than a part of the light's width in so many.
+const THROUGH: f32 = 512.0;
 
 /// Where the receivers of a group are, and how the light lies to them.
 pub(super) struct Standpoint {
@@ -35,6 +36,8 @@ pub(super) struct Standpoint {
     /// A flat light's centre from the group's, and its axes.
     light: Option<[Vec3; 3]>,
     clip: Option<Clip>,
+    /// Whether all are in mid-air: nothing is their own or below a horizon.
+    airborne: bool,
     /// The normal that all share, if they do, and the lowest place along it.
     shared: Option<(DVec3, f64)>,
 }
@@ -42,8 +45,9 @@ pub(super) struct Standpoint {
 /// Between which depths a triangle surely stands before the light.
 enum Far {
     /// Along a direction, from the centre: above the first and below the second. Below the third it is behind
-    /// all receivers, above the fourth behind the light. One that begins below `through` is cut at `end`.
-    Plane { axis: Vec3, range: [f32; 2], out: [f32; 2], through: f32, end: f64 },
+    /// all receivers, above the fourth behind the light. Triangles are cut at `end`, by `doubt` more or less than
+    /// each receiver would.
+    Plane { axis: Vec3, range: [f32; 2], out: [f32; 2], end: f64, doubt: f32 },
     /// Towards a sphere's centre; how far the receivers are from the group's, and the most that
     /// `corner . axis` may be.
     Ball { axis: Vec3, reach: f32, most: f32 },
@@ -98,13 +102,7 @@ impl Standpoint {
                 let axis = upright(&aim);
                 let [lowest, highest] = reach(axis).map(|t| t as f32);
                 let (range, out) = ([highest, f32::INFINITY], [lowest, f32::INFINITY]);
-                Far::Plane {
-                    axis: axis.as_vec3(),
-                    range,
-                    out,
-                    through: f32::NEG_INFINITY,
-                    end: f64::INFINITY,
-                }
+                Far::Plane { axis: axis.as_vec3(), range, out, end: f64::INFINITY, doubt: 0.0 }
             }
             Spread::Area => {
                 let axis = upright(&aim);
@@ -117,8 +115,7 @@ impl Standpoint {
                 let (range, out) = ([farthest as f32, most as f32], [nearest as f32, light as f32]);
                 let end = light - LIGHT_GAP * (light - 0.5 * (nearest + farthest));
                 let doubt = 0.5 * LIGHT_GAP * (farthest - nearest) + f64::from(ROUNDING) * light;
-                let through = (end - THROUGH * doubt) as f32;
-                Far::Plane { axis: axis.as_vec3(), range, out, through, end }
+                Far::Plane { axis: axis.as_vec3(), range, out, end, doubt: doubt as f32 }
             }
             Spread::Cone { one_minus_cos, distance: Distance::Sphere } => {
                 let cos = 1.0 - one_minus_cos;
@@ -149,9 +146,11 @@ impl Standpoint {
             let heights = receivers.iter().map(|r| own.dot(r.receiver.position));
             (own, heights.fold(f64::INFINITY, f64::min))
         });
+        let airborne = receivers.iter().all(|r| r.receiver.is_in_air());
         Some(Self {
             light,
             clip,
+            airborne,
             shared,
             centre,
             half,
@@ -229,9 +228,12 @@ impl Standpoint {
         let highest = (p - away).max(q - gone).max(r - off);
         let at_most = (p + away).max(q + gone).max(r + off);
         let ([low, high], sway) = (self.heights, self.sway.dot(self.half));
-        let clear = (Eight::all(high + sway) + rounding).below(highest);
+        let mut clear = (Eight::all(high + sway) + rounding).below(highest);
+        if self.airborne {
+            clear = Eight::all(0.0).below(Eight::all(1.0));
+        }
         let below = (at_most + rounding).below(Eight::all(low - sway));
-        let [front, nearer, out, through] = self.between(&d, rounding);
+        let [front, nearer, out] = self.between(&d, rounding);
         // The height of the triangle's plane over the centre, times twice its area.
         let (p, q) = (sub(b, a), sub(c, a));
         let half = self.half.to_array();
@@ -256,9 +258,14 @@ impl Standpoint {
         let behind = plane.below(Eight::all(0.0));
         let all_nearer = nearer;
         let mut nearer = nearer;
+        let mut through = Eight::all(0.0).below(Eight::all(0.0));
         if let Some([middle, u, v]) = self.light {
             // Or its plane has all receivers on one side and all of the light on the other.
             let (u, v) = (dot(u, &normal).abs(), dot(v, &normal).abs());
+            if let Far::Plane { axis, doubt, .. } = self.far {
+                let moved = dot(axis, &normal).abs() * Eight::all(THROUGH * doubt);
+                through = moved.below(u + v);
+            }
             let beyond = (dot(middle, &normal) - plane).signed_as(plane) - u - v;
             let size = dot(middle.abs(), &abs(&normal)) + plane.abs() + off + u + v;
             nearer = nearer.or((size * Eight::all(4.0 * LIGHT_GAP as f32)).below(beyond).and(sided));
@@ -271,14 +278,14 @@ impl Standpoint {
     }
 
     #[inline(always)]
-    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> [Mask; 4] {
+    fn between(&self, [a, b, c]: &[[Eight; 3]; 3], rounding: Eight) -> [Mask; 3] {
         match self.far {
-            Far::Plane { axis, range: [nearest, most], out: [behind, beyond], through, .. } => {
+            Far::Plane { axis, range: [nearest, most], out: [behind, beyond], .. } => {
                 let [a, b, c] = [dot(axis, a), dot(axis, b), dot(axis, c)];
                 let (low, high) = (a.min(b).min(c) - rounding, a.max(b).max(c) + rounding);
                 let (front, nearer) = (Eight::all(nearest).below(low), high.below(Eight::all(most)));
                 let out = high.below(Eight::all(behind)).or(Eight::all(beyond).below(low));
-                [front, nearer, out, low.below(Eight::all(through))]
+                [front, nearer, out]
             }
             Far::Ball { axis, reach, most } => {
                 let away = length(axis, a).max(length(axis, b)).max(length(axis, c));
@@ -288,7 +295,7 @@ impl Standpoint {
                 let (low, high) = (a.min(b).min(c) - spread, a.max(b).max(c) + spread);
                 let (zero, most) = (Eight::all(0.0), Eight::all(most));
                 let behind = (high + Eight::all(reach * reach)).below(zero);
-                [zero.below(low), high.below(most), behind, zero.below(zero)]
+                [zero.below(low), high.below(most), behind]
             }
         }
     }

@@ -22,6 +22,8 @@ pub(crate) struct Frame {
     pub(crate) normal: Vec3,
     /// Sum of the receiver's coordinates without signs.
     pub(crate) extent: f32,
+    /// Whether the receiver has neither a surface of its own nor a horizon.
+    pub(crate) in_air: bool,
     /// The aim's u, v and axis.
     axes: [DVec3; 3],
     pub(crate) round: bool,
@@ -93,6 +95,7 @@ impl Frame {
             light_from_world: matrix.inverse().as_mat3(),
             normal: Vec3::ZERO,
             extent: 0.0,
+            in_air: false,
             axes: [aim.u, aim.v, aim.axis],
             round: aim.outline == Outline::Disk,
             flat: cone.is_none(),
@@ -110,6 +113,7 @@ impl Frame {
         self.place = [high, (receiver.position - high.as_dvec3()).as_vec3()];
         self.normal = receiver.normal.as_vec3();
         self.extent = high.abs().element_sum();
+        self.in_air = receiver.is_in_air();
     }
 
     /// A plane's linear form on the light.

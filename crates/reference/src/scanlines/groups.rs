@@ -37,10 +37,10 @@ const MANY: usize = 32;
 /// Parts of fewer receivers are not asked whether one patch hides the light from all of them.
 const WORTH_ASKING: usize = 8;
 
-/// Rays are faster where a receiver would have to look at more edges than this for each of its samples, or at triangles
-/// one by one, each of which takes as long as so many edges; or where more triangles than `LISTED` would have to be
+/// Rays are faster where a receiver would have to look at more edges than this, or at rows of edges, for each of its
+/// samples, or at triangles one by one, each of which takes about as long as so many edges; or where more triangles than `LISTED` would have to be
 /// listed for each sample of a group (docs/performance.md).
-const PER_RAY: usize = 96;
+pub(super) const PER_RAY: usize = 96;
 const TRIANGLE: usize = 8;
 const LISTED: usize = 4;
 
@@ -64,9 +64,13 @@ pub(super) struct Desk {
     /// What was hidden before one of them, per row.
     pub(super) before: Vec<[u32; REPLICATES]>,
     pub(super) surveys: Vec<(usize, Survey)>,
+    /// Triangles across a sphere's depths.
+    pub(super) straddling: Vec<u32>,
     pub(super) open: Vec<u32>,
     /// Whether so much is before a part of a group that rays are faster.
     pub(super) crowded: bool,
+    /// Whether rays have found what the receiver that looked last sees, cut-out triangles and all.
+    pub(super) asked: bool,
     /// A sun is the same from everywhere.
     sun: Option<(Aim, Option<Frame>)>,
     pub(super) lines: Lines,

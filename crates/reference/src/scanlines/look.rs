@@ -3,7 +3,7 @@
 use super::blocks::{Block, Sides, Survey};
 use super::eight::LANES;
 use super::frame::{Frame, Turn};
-use super::groups::Desk;
+use super::groups::{Desk, PER_RAY};
 use super::lines::Lines;
 use super::lines::Ruling;
 use super::outline::{self, Edge, Outline};
@@ -14,8 +14,12 @@ use crate::aim::{Aim, Elevation};
 use crate::rays;
 use crate::receiver::Receiver;
 use crate::samples::LightSamples;
+use crate::surfaces::Surfaces;
 use crate::truth::{Method, Sight, Task};
 use pulp::{Arch, Simd, WithSimd};
+
+/// With more triangles than this across a sphere's depths, each of which is asked for every sample, rays are faster.
+const STRADDLING: u32 = 64;
 
 /// Covers what is hidden; `again` from the same receiver with another set of samples. Lit and hidden are exact: nothing is between, or one triangle is before the
 /// whole light.
@@ -40,7 +44,7 @@ pub(super) fn look(
         last,
     });
     match &task.tracer.surfaces.cutouts {
-        Some(cutouts) if !desk.crowded && !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => {
+        Some(cutouts) if !desk.asked && !matches!(sight, Sight::Hidden) && desk.cards.eights() > 0 => {
             Arch::new().dispatch(Veil {
                 task,
                 cutouts,
@@ -93,6 +97,7 @@ fn past_whole(
     last: &mut usize,
 ) -> Sight {
     let surfaces = &task.tracer.surfaces;
+    desk.asked = false;
     let lines = &mut desk.lines;
     let mut drawn = false;
     if aim.elevation(receiver.normal) == Elevation::Across {
@@ -115,9 +120,7 @@ fn past_whole(
         if !drawn {
             ruling.fill(lines, frame, turn, seed);
         }
-        let mut packet = Packet::new(surfaces, receiver);
-        lines.trace_together((frame, turn, aim), (&mut packet, &mut desk.open), &mut desk.samples);
-        return Sight::Sampled;
+        return by_rays(surfaces, (receiver, aim), (frame, turn), desk);
     }
     // A second set of samples meets the same.
     if !again && whole(receiver, frame, desk, last) {
@@ -130,16 +133,24 @@ fn past_whole(
     if !drawn {
         ruling.fill(lines, frame, turn, seed);
     }
+    let straddling = |(_, survey): &(usize, Survey)| (survey.some & survey.straddle).count_ones();
+    if !frame.flat && desk.surveys.iter().map(straddling).sum::<u32>() > STRADDLING {
+        return by_rays(surfaces, (receiver, aim), (frame, turn), desk);
+    }
     if matches!(past, Past::Crossed) {
         desk.winding.start(ruling);
         for seen in &desk.patches.seen {
             desk.winding.add(seen, lines, (frame, ruling, turn));
+            if desk.winding.steps() > PER_RAY * ruling.samples() {
+                return by_rays(surfaces, (receiver, aim), (frame, turn), desk);
+            }
         }
         desk.winding.hide(lines, frame);
         if lines.full() {
             return Sight::Sampled;
         }
     }
+    desk.straddling.clear();
     for (at, survey) in &desk.surveys {
         let sides = survey.sides(frame, ruling, turn);
         let mut some = survey.some;
@@ -147,14 +158,37 @@ fn past_whole(
             let lane = some.trailing_zeros() as usize;
             some &= some - 1;
             let slot = blocks.blocks[*at].slots[lane];
+            if !frame.flat && survey.straddle >> lane & 1 != 0 {
+                desk.straddling.push(slot);
+                continue;
+            }
             let one = (survey, &sides, lane, slot);
             cover(task, (receiver, aim), (frame, turn), one, (&mut *lines, &mut desk.samples));
         }
         if lines.full() {
             *last = *at;
-            break;
+            return Sight::Sampled;
         }
     }
+    if !desk.straddling.is_empty() {
+        // Which samples are nearer than the triangle depends on the sample.
+        let mut packet = Packet::new(surfaces, receiver, Some(&desk.straddling));
+        lines.trace_together((frame, turn, aim), (&mut packet, &mut desk.open), &mut desk.samples);
+    }
+    Sight::Sampled
+}
+
+/// By rays in eights, of all samples that are not hidden yet.
+#[inline(always)]
+fn by_rays(
+    surfaces: &Surfaces,
+    (receiver, aim): (&Receiver, &Aim),
+    (frame, turn): (&Frame, &Turn),
+    desk: &mut Desk,
+) -> Sight {
+    desk.asked = true;
+    let mut packet = Packet::new(surfaces, receiver, None);
+    desk.lines.trace_together((frame, turn, aim), (&mut packet, &mut desk.open), &mut desk.samples);
     Sight::Sampled
 }
 

@@ -17,6 +17,8 @@ use obvhs::bvh2::node::Bvh2Node;
 pub(super) struct Packet<'a> {
     surfaces: &'a Surfaces,
     receiver: &'a Receiver,
+    /// The only triangles that count, if not all do.
+    only: Option<&'a [u32]>,
     direction: Wide3,
     end: Wide,
     /// As obvhs sees a ray.
@@ -26,10 +28,11 @@ pub(super) struct Packet<'a> {
 }
 
 impl<'a> Packet<'a> {
-    pub(super) fn new(surfaces: &'a Surfaces, receiver: &'a Receiver) -> Self {
+    pub(super) fn new(surfaces: &'a Surfaces, receiver: &'a Receiver, only: Option<&'a [u32]>) -> Self {
         Self {
             surfaces,
             receiver,
+            only,
             direction: Wide3::ZERO,
             end: Wide::all(0.0),
             origin: receiver.position.as_vec3a().to_array(),
@@ -59,6 +62,12 @@ impl<'a> Packet<'a> {
     pub(super) fn blocked(&self, some: u32, open: &mut Vec<u32>) -> u32 {
         let nodes = &self.surfaces.bvh.nodes[..];
         let mut left = some;
+        if let Some(slots) = self.only {
+            for &slot in slots {
+                left &= !self.crosses(slot, left);
+            }
+            return some & !left;
+        }
         open.clear();
         open.push(0);
         while let Some(index) = open.pop() {

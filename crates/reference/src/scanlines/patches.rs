@@ -86,7 +86,7 @@ impl Patches {
             }
         });
         edges.clear();
-        candidates.edges(all, standpoint.and_then(Standpoint::clip), |edge| edges.push(&edge));
+        candidates.edges(all, standpoint, |edge| edges.push(&edge));
         self.sides.clear();
         self.sides.resize(self.patches + self.open.blocks.len() * LANES, 1);
         self.shade = None;

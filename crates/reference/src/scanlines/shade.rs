@@ -5,6 +5,7 @@
 //! patch covers all of the light or nothing of it, the same from everywhere in the group, and the ray says which.
 
 use super::blocks::{Block, Blocks};
+use super::clip::upright;
 use super::eight::{Eight, LANES};
 use super::facing::Standpoint;
 use crate::aim::{Aim, Outline};
@@ -64,6 +65,13 @@ impl WithSimd for Spread<'_> {
 impl Shade {
     pub(super) fn hides(&mut self, surfaces: &Surfaces, standpoint: &Standpoint, aim: &Aim) -> bool {
         let middle = standpoint.centre().as_dvec3();
+        // A box may reach beyond a flat light's plane although no receiver in it does.
+        let up = upright(aim);
+        if aim.nearness()[0] != 0.0
+            && standpoint.corners().iter().any(|c| up.dot(aim.axis + middle - c.as_dvec3()) <= 0.0)
+        {
+            return false;
+        }
         let length = aim.axis.length();
         let end = if aim.nearness()[0] == 0.0 { f64::INFINITY } else { length * (1.0 - LIGHT_GAP) };
         let line = Line { origin: middle, direction: aim.axis / length, range: [0.0, end] };

@@ -159,6 +159,11 @@ impl Winding {
         (self.across.count, self.before.count) = (0, 0);
     }
 
+    /// Rows of edges so far.
+    pub(super) fn steps(&self) -> usize {
+        self.across.count + self.before.count
+    }
+
     /// Takes what a receiver sees of eight edges.
     #[inline(always)]
     pub(super) fn add(

@@ -67,6 +67,28 @@ fn same_bits_in_any_company() {
     }
 }
 
+/// On scanlines neighbours share what is found of triangles: up to ties on edges, one sample of 64 or two.
+#[test]
+fn same_samples_in_any_company() {
+    let tracer = Tracer::new(&blocks()).expect("a scene");
+    let points = tracer.primary(&eye()).points();
+    let settings = TruthSettings { seed: 11, ..settings(32, Method::Scanlines) };
+    let together = tracer.truth(&points, &light(), &settings);
+    let (mut partial, mut differing) = (0, 0);
+    for i in (0..points.len()).step_by(7) {
+        let alone = Points {
+            position: vec![points.position[i]],
+            normal: vec![points.normal[i]],
+            triangle: vec![points.triangle[i]],
+        };
+        let off = (tracer.truth(&alone, &light(), &settings).mean[0] - together.mean[i]).abs();
+        assert!(off < 2.5 / 64.0, "point {i}: {off}");
+        differing += u32::from(off > 0.0);
+        partial += u32::from(together.mean[i] > 0.0 && together.mean[i] < 1.0);
+    }
+    assert!(partial > 20 && differing <= 2, "{differing} differ, {partial} in a penumbra");
+}
+
 #[test]
 fn no_points_no_truth() {
     let tracer = Tracer::new(&blocks()).expect("a scene");
