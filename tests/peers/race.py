@@ -102,23 +102,24 @@ class Race:
         pixels = width * height
         started = time.perf_counter()
         position, normal, hit = self.first_hits()
-        passes = -(-count * pixels // LANES)
-        at_once = -(-count // passes)
+        # In bands of pixels: in passes of fewer samples their strata would be lost.
+        sampler = mi.load_dict({"type": kind, "sample_count": count})
+        count = sampler.sample_count()
+        sampler.set_samples_per_wavefront(count)
+        band = max(1, LANES // count)
         seen = np.zeros(pixels)
-        for launch in range(passes):
-            sampler = mi.load_dict({"type": kind, "sample_count": at_once})
-            some = sampler.sample_count()
-            sampler.set_samples_per_wavefront(some)
-            sampler.seed(dr.opaque(mi.UInt32, seed * 4096 + launch), pixels * some)
-            owner = dr.arange(mi.UInt32, pixels * some) // some
-            it = dr.zeros(mi.SurfaceInteraction3f, pixels * some)
+        for first in range(0, pixels, band):
+            some = min(band, pixels - first)
+            sampler.seed(dr.opaque(mi.UInt32, seed * 4096 + first // band), some * count)
+            owner = dr.opaque(mi.UInt32, first) + dr.arange(mi.UInt32, some * count) // count
+            it = dr.zeros(mi.SurfaceInteraction3f, some * count)
             it.p, it.n = dr.gather(mi.Point3f, position, owner), dr.gather(mi.Normal3f, normal, owner)
             active = dr.gather(mi.Bool, hit, owner)
             ray = lifted(it, peer.light.place(it, sampler.next_2d()), 1e-6)
             active &= dr.dot(it.n, ray.d) > 0
             visible = active & ~peer.scene.ray_test(ray, active)
-            seen += np.array(dr.block_sum(dr.select(visible, mi.Float(1), 0), some)) / some
-        return time.perf_counter() - started, seen / passes, np.array(hit)
+            seen[first:first + some] = np.array(dr.block_sum(dr.select(visible, mi.Float(1), 0), count)) / count
+        return time.perf_counter() - started, seen, np.array(hit)
 
     def first_hits(self):
         width, height = self.size
