@@ -127,16 +127,17 @@ fn on_gpu(
         println!("no timestamps: GPU time unknown");
         return Ok(());
     };
-    timed.sort_by(|a, b| (a.walk + a.look).total_cmp(&(b.walk + b.look)));
-    let all = |k: &umbrage_reference::KernelSeconds| 1e3 * (k.walk + k.look);
+    timed.sort_by(|a, b| a.all().total_cmp(&b.all()));
+    let all = |k: &umbrage_reference::KernelSeconds| 1e3 * k.all();
     let median = timed[timed.len() / 2];
     println!(
-        "{}: {:.3} ms ({:.3} to {:.3}): walk {:.3}, look {:.3}",
+        "{}: {:.3} ms ({:.3} to {:.3}): walk {:.3}, glance {:.3}, look {:.3}",
         if software { "timestamps of a software adapter, no GPU cost" } else { "GPU time" },
         all(&median),
         all(&timed[0]),
         all(&timed[timed.len() - 1]),
         1e3 * median.walk,
+        1e3 * median.glance,
         1e3 * median.look
     );
     Ok(())

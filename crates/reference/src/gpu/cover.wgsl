@@ -1,36 +1,35 @@
 // A triangle on the rows (scanlines/blocks.rs `sides`, outline.rs `cover`).
 
-// Lines on the left and on the right of the inside: slope and place of each.
-var<workgroup> kept_sides: array<vec4<f32>, KEPT>;
-// Two more: slope, place, and beyond all rows on the side that they do not bound.
-var<workgroup> kept_third: array<vec3<f32>, KEPT>;
+// A fourth line, as the third: slope, place, and beyond all rows on the side that it does not bound. (`lines` holds
+// the lines on the left and on the right of the inside, slope and place of each, and the third.)
 var<workgroup> kept_fourth: array<vec3<f32>, KEPT>;
 // One over the depth of the triangle's plane.
 var<workgroup> kept_form: array<vec3<f32>, KEPT>;
-// Rows from and to, and what else there is.
+// A bit for each lane's row that it may touch, and what else there is.
 var<workgroup> kept_rows: array<u32, KEPT>;
-const WITH_FOURTH = 0x10000u;
-const WITH_FORM = 0x20000u;
+const WITH_FOURTH = 0x40000000u;
+const WITH_FORM = 0x80000000u;
 
 fn third(line: Line) -> vec3<f32> {
     return vec3<f32>(line.slope, line.at, select(-BEYOND, BEYOND, line.left));
 }
 
 fn keep(s: Sight, t: u32, slot: u32) {
-    let seen = survey(s, slot, corners_of(slot));
-    let a = line_of(turn, seen.edges[0]);
-    let b = line_of(turn, seen.edges[1]);
-    let c = line_of(turn, seen.edges[2]);
-    let span = rows_of(s, seen, turn);
-    var rows = span.x | (span.y << 8u);
+    // What is on the list has been found to count.
+    let seen = survey(s, slot | CLEAR, corners_of(slot));
+    let a = line_of(s.turn, seen.edges[0]);
+    let b = line_of(s.turn, seen.edges[1]);
+    let c = line_of(s.turn, seen.edges[2]);
+    let span = rows_of(s, seen, s.turn);
+    var rows = touched(span);
     let plane = seen.edges[0] + seen.edges[1] + seen.edges[2];
     // One line on each side, and a third; all three on one side where it reaches behind the receiver.
     if a.left == b.left && b.left == c.left {
-        kept_sides[t] = vec4<f32>(
+        lines[t] = vec4<f32>(
             select(vec2<f32>(0.0, -BEYOND), vec2<f32>(a.slope, a.at), a.left),
             select(vec2<f32>(a.slope, a.at), vec2<f32>(0.0, BEYOND), a.left),
         );
-        kept_third[t] = third(b);
+        lines[KEPT + t] = vec4<f32>(third(b), 0.0);
         kept_fourth[t] = third(c);
         rows |= WITH_FOURTH;
         if seen.straddles {
@@ -51,10 +50,10 @@ fn keep(s: Sight, t: u32, slot: u32) {
             left = b;
             right = a;
         }
-        kept_sides[t] = vec4<f32>(left.slope, left.at, right.slope, right.at);
-        kept_third[t] = third(other);
+        lines[t] = vec4<f32>(left.slope, left.at, right.slope, right.at);
+        lines[KEPT + t] = vec4<f32>(third(other), 0.0);
         if seen.straddles && FLAT {
-            kept_fourth[t] = third(line_of(turn, vec3<f32>(plane.xy, plane.z - seen.volume / s.near)));
+            kept_fourth[t] = third(line_of(s.turn, vec3<f32>(plane.xy, plane.z - seen.volume / s.near)));
             rows |= WITH_FOURTH;
         } else if seen.straddles {
             rows |= WITH_FORM;
@@ -67,18 +66,20 @@ fn keep(s: Sight, t: u32, slot: u32) {
 // Hides what is inside one of the triangles on the list.
 fn cover(s: Sight, t: u32) {
     let rows = kept_rows[t];
-    let sides = kept_sides[t];
-    let bound = kept_third[t];
+    let sides = lines[t];
+    let bound = lines[KEPT + t].xyz;
     // each row
-    if touched(rows, ROWu) {
+    if (rows & (1u << ROWu)) != 0u {
         row_ROW.hidden |= covered(s, t, rows, sides, bound, row_ROW);
     }
-    // end
+    // end row
 }
 
-// Whether a triangle may touch any lane's row of a number.
-fn touched(rows: u32, i: u32) -> bool {
-    return STRIDES * (i + 1u) > (rows & 0xffu) && STRIDES * i < ((rows >> 8u) & 0xffu);
+// A bit for each number of a lane's row, of which there are STRIDES side by side, between two rows.
+fn touched(rows: vec2<u32>) -> u32 {
+    let first = rows.x / STRIDES;
+    let last = (max(rows.y, rows.x) + STRIDES - 1u) / STRIDES;
+    return ((1u << last) - 1u) & ~((1u << first) - 1u);
 }
 
 fn covered(s: Sight, t: u32, rows: u32, sides: vec4<f32>, bound: vec3<f32>, row: Row) -> u32 {
@@ -94,7 +95,7 @@ fn covered(s: Sight, t: u32, rows: u32, sides: vec4<f32>, bound: vec3<f32>, row:
     }
     var bits = between(s, row, places);
     if KIND != SUN && (rows & WITH_FORM) != 0u {
-        bits = nearer(s, turn, row, kept_form[t], bits);
+        bits = nearer(s, s.turn, row, kept_form[t], bits);
     }
     return bits;
 }

@@ -1,9 +1,6 @@
 // Heights over a triangle's plane to twice the precision of f32 (Dekker 1971, Knuth's sum): enough to
 // tell a vertex in the receiver's plane from one a rounding above it.
 
-// Two a slot: a unit normal with its offset, then what f32 left of them.
-@group(0) @binding(4) var<storage, read> planes: array<vec4<f32>>;
-
 // Compilers may cancel (a + b) - a; they cannot see through this.
 fn hold(x: f32) -> f32 {
     return bitcast<f32>(bitcast<u32>(x) ^ task.zero);

@@ -1,6 +1,7 @@
-//! The two kernels, compiled for a light and a ruling.
+//! The kernels, compiled for a light and a ruling.
 
 use super::KINDS;
+use super::scene::PIECES;
 use crate::rays::LIGHT_GAP;
 use crate::receiver::COPLANAR;
 use crate::scanlines::{BEYOND, MARGIN, Ruling, STEP};
@@ -10,11 +11,15 @@ use std::sync::Arc;
 use umbrage_device::Device;
 
 /// In the order of their bindings: the task, then storage buffers.
-const WALK: [bool; 7] = [false, false, false, false, true, true, true];
+const WALK: [bool; 8] = [false, false, false, false, true, true, true, false];
+const GLANCE: [bool; 8] = [false, false, false, false, false, false, true, true];
 const LOOK: [bool; 8] = [false, false, false, false, false, false, true, false];
 
 /// Lanes that share a replicate's rows.
 const STRIDES: u32 = 4;
+
+/// Samples whose layers share a word, and where there may be more layers than a byte counts.
+const PER_WORD: [u32; 2] = [4, 2];
 
 /// What a pipeline is compiled for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -26,6 +31,8 @@ pub(super) struct LookFor {
     pub(super) base_rows: u32,
     pub(super) all_rows: u32,
     pub(super) per_row: u32,
+    /// Whether there may be more layers than a byte counts.
+    pub(super) deep: bool,
 }
 
 pub(super) struct Kernel {
@@ -37,13 +44,14 @@ pub(super) struct Kernel {
 #[derive(Default)]
 pub(super) struct Kernels {
     walks: HashMap<u32, Arc<Kernel>>,
+    glances: HashMap<u32, Arc<Kernel>>,
     looks: HashMap<LookFor, Arc<Kernel>>,
 }
 
 impl LookFor {
-    pub(super) fn new(kind: u32, set: u32, ruling: &Ruling) -> Self {
+    pub(super) fn new((kind, set): (u32, u32), ruling: &Ruling, deep: bool) -> Self {
         let [base_rows, all_rows, per_row] = ruling.size();
-        Self { kind, set, base_rows, all_rows, per_row }
+        Self { kind, set, base_rows, all_rows, per_row, deep }
     }
 }
 
@@ -51,6 +59,11 @@ impl Kernels {
     pub(super) fn walk(&mut self, device: &Device, kind: u32) -> Arc<Kernel> {
         let compile = || Arc::new(kernel(device, "walk", &walk_source(kind), &WALK));
         self.walks.entry(kind).or_insert_with(compile).clone()
+    }
+
+    pub(super) fn glance(&mut self, device: &Device, kind: u32) -> Arc<Kernel> {
+        let compile = || Arc::new(kernel(device, "glance", &glance_source(kind), &GLANCE));
+        self.glances.entry(kind).or_insert_with(compile).clone()
     }
 
     pub(super) fn look(&mut self, device: &Device, look: LookFor) -> Arc<Kernel> {
@@ -73,6 +86,7 @@ fn head(kind: u32) -> String {
         // A `String` takes whatever is written.
         let _ = writeln!(head, "const {name}: f32 = {value:e};");
     }
+    let _ = writeln!(head, "const PIECES = {PIECES}u;");
     for (number, name) in KINDS.into_iter().enumerate() {
         let _ = writeln!(head, "const {name} = {number}u;");
     }
@@ -80,11 +94,35 @@ fn head(kind: u32) -> String {
 }
 
 fn walk_source(kind: u32) -> String {
-    [&head(kind), include_str!("task.wgsl"), include_str!("volume.wgsl"), include_str!("walk.wgsl")].concat()
+    [
+        head(kind).as_str(),
+        include_str!("task.wgsl"),
+        include_str!("exact.wgsl"),
+        include_str!("volume.wgsl"),
+        include_str!("facing.wgsl"),
+        include_str!("walk.wgsl"),
+    ]
+    .concat()
+}
+
+fn glance_source(kind: u32) -> String {
+    [
+        head(kind).as_str(),
+        include_str!("task.wgsl"),
+        include_str!("exact.wgsl"),
+        include_str!("sight.wgsl"),
+        include_str!("survey.wgsl"),
+        include_str!("list.wgsl"),
+        include_str!("edges.wgsl"),
+        &each("pair", PIECES / 2, include_str!("glance.wgsl")),
+    ]
+    .concat()
 }
 
 fn look_source(look: &LookFor) -> String {
-    let rows = look.all_rows.div_ceil(STRIDES);
+    let per_word = PER_WORD[usize::from(look.deep)];
+    let (rows, words) = (look.all_rows.div_ceil(STRIDES), look.per_row.div_ceil(per_word));
+    let repeated = |source: &str| each("row", rows, &each("word", words, source));
     let mut constants = head(look.kind);
     for (name, value) in [
         ("SET", look.set),
@@ -92,6 +130,7 @@ fn look_source(look: &LookFor) -> String {
         ("ALL_ROWS", look.all_rows),
         ("PER_ROW", look.per_row),
         ("STRIDES", STRIDES),
+        ("FIELDS", per_word),
     ] {
         let _ = writeln!(constants, "const {name} = {value}u;");
     }
@@ -102,24 +141,30 @@ fn look_source(look: &LookFor) -> String {
         include_str!("exact.wgsl"),
         include_str!("sight.wgsl"),
         include_str!("survey.wgsl"),
-        &each_row(include_str!("rows.wgsl"), rows),
+        include_str!("list.wgsl"),
+        include_str!("edges.wgsl"),
+        include_str!("outline.wgsl"),
+        &repeated(include_str!("rows.wgsl")),
         include_str!("places.wgsl"),
-        &each_row(include_str!("cover.wgsl"), rows),
-        &each_row(include_str!("look.wgsl"), rows),
-        &each_row(include_str!("tell.wgsl"), rows),
+        &repeated(include_str!("layers.wgsl")),
+        &repeated(include_str!("cover.wgsl")),
+        &repeated(include_str!("look.wgsl")),
+        &repeated(include_str!("tell.wgsl")),
     ]
     .concat()
 }
 
-/// Repeats what is between `// each row` and `// end`, with the row's number for ROW: neither the
+/// Repeats what is between `// each row` and `// end row` (or `word`), with its number for ROW: neither the
 /// language nor wgpu, which bounds loops and indices, keeps rows of an array in registers.
-fn each_row(source: &str, rows: u32) -> String {
+fn each(what: &str, count: u32, source: &str) -> String {
+    let [start, end] = [format!("// each {what}\n"), format!("// end {what}\n")];
+    let name = what.to_uppercase();
+    let [number, suffix] = [format!("{name}u"), format!("_{name}")];
     let mut whole = String::new();
-    for (at, part) in source.split("// each row\n").enumerate() {
-        let (repeated, rest) =
-            if at == 0 { ("", part) } else { part.split_once("// end\n").unwrap_or((part, "")) };
-        for row in 0..rows {
-            whole += &repeated.replace("ROWu", &format!("{row}u")).replace("_ROW", &format!("_{row}"));
+    for (at, part) in source.split(&start).enumerate() {
+        let (repeated, rest) = if at == 0 { ("", part) } else { part.split_once(&end).unwrap_or((part, "")) };
+        for i in 0..count {
+            whole += &repeated.replace(&number, &format!("{i}u")).replace(&suffix, &format!("_{i}"));
         }
         whole += rest;
     }

@@ -1,149 +1,107 @@
-// 32 lanes look at the light from one receiver after another: they survey 32 candidates at once and
-// list those that hide a part, then each lane hides samples of its own rows (scanlines/mod.rs, `look`).
+// 32 lanes look at the light from one receiver after another: they list edges and triangles, then each lane hides
+// samples of its own rows (scanlines/look.rs).
 
-@group(0) @binding(5) var<storage, read> pool: array<u32>;
-@group(0) @binding(6) var<storage, read> heads: array<List>;
-// Visible and (upper half) all samples of both halves; the basis' share and the variance as bits.
-@group(0) @binding(7) var<storage, read_write> results: array<vec4<u32>>;
-// Which result is a receiver's.
-@group(0) @binding(8) var<storage, read> order: array<u32>;
+@group(0) @binding(8) var<storage, read> queue: array<u32>;
 
 const LANES = 32u;
-// Receivers of a workgroup; the y of its place says which.
-const RECEIVERS = 16u;
-// Triangles that are listed before they hide their samples.
+// Receivers that a workgroup takes from the queue at a time.
+const RECEIVERS = 4u;
+// Triangles that are listed before they hide their samples: half of the edges (layers.wgsl).
 const KEPT = 64u;
-
-// First words of results that are none.
-const LIT = 0xffffffffu;
-const HIDDEN = 0xfffffffeu;
-const FOR_CPU = 0xfffffffdu;
-const AGAIN = 0xfffffffcu;
 
 // The basis' share before its pass: not a number.
 const UNSEEN = 0xffffffffu;
 
+var<workgroup> sights: array<Sight, RECEIVERS>;
+// Each receiver and the list of its group.
+var<workgroup> taken: array<vec2<u32>, RECEIVERS>;
 var<workgroup> kept: array<u32, KEPT>;
-// How many are listed; above, whether one hides everything, and whether a sample is visible still.
+// How many are listed; above, whether a sample is visible still, and whether an edge crosses the light.
 var<workgroup> tally: atomic<u32>;
-const WHOLE = 0x10000u;
+const COUNT = 0xffffu;
 const VISIBLE = 0x20000u;
+const CROSSING = 0x40000u;
 var<workgroup> counts: array<u32, LANES>;
 
-var<private> turn: vec4<f32>;
-var<private> drawn: bool;
 // Some drivers end a loop that they think is endless: what was not looked at is told.
 var<private> broken: bool;
+var<private> deep: bool;
 
 @compute @workgroup_size(32)
-fn look(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = groups[task.first_group + workgroup.x];
-    let list = heads[workgroup.x];
-    let head = list.first;
-    // The candidates, at most 32, among which is the one that hid the light from the last receiver.
-    var last = vec3<u32>(0u);
-    let end = min((workgroup.y + 1u) * RECEIVERS, group.count);
-    for (var n = workgroup.y * RECEIVERS; n < end; n++) {
-        let index = group.first + n;
-        let to = order[index];
-        if head == OVERFLOW || head == EXHAUSTED {
-            if lane == 0u && SET == 0u {
-                results[to] = vec4<u32>(select(AGAIN, FOR_CPU, head == OVERFLOW), 0u, 0u, 0u);
-            }
-            continue;
+fn look(
+    @builtin(workgroup_id) workgroup: vec3<u32>,
+    @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let count = queue[0];
+    for (var first = RECEIVERS * workgroup.x; first < count; first += RECEIVERS * workgroups.x) {
+        let here = min(RECEIVERS, count - first);
+        if lane < here {
+            let at = 2u * (1u + first + lane);
+            taken[lane] = vec2<u32>(queue[at], queue[at + 1u]);
+            var s = sight_of(queue[at]);
+            s.seed = seed_of(queue[at]);
+            s.turn = turn_of(s.seed);
+            sights[lane] = s;
         }
-        if SET != 0u && results[to].x >= AGAIN {
-            continue;
-        }
-        let s = sight_of(index);
-        if s.thin {
-            if lane == 0u {
-                results[to] = vec4<u32>(FOR_CPU, 0u, 0u, 0u);
-            }
-            continue;
-        }
-        drawn = false;
-        broken = false;
-        let outcome = hide(s, index, list, last, lane);
-        if broken {
-            if lane == 0u {
-                results[to] = vec4<u32>(FOR_CPU, 0u, 0u, 0u);
-            }
-            continue;
-        }
-        if outcome.x == HIDDEN {
-            last = outcome.yzw;
-        }
-        if outcome.x != 0u {
-            if lane == 0u {
-                // The basis of what is lit or hidden is, too.
-                if SET == 0u {
-                    results[to] = vec4<u32>(outcome.x, 0u, 0u, 0u);
-                } else {
-                    results[to].z = bitcast<u32>(select(0.0, 1.0, outcome.x == LIT));
+        workgroupBarrier();
+        for (var n = 0u; n < here; n++) {
+            let index = taken[n].x;
+            broken = false;
+            deep = false;
+            hide(standing(sights[n]), heads[taken[n].y], lane);
+            if broken || deep {
+                if lane == 0u {
+                    results[index] = vec4<u32>(select(TOO_DEEP, FOR_CPU, broken), 0u, 0u, 0u);
                 }
+            } else if SET == 0u || results[index].x < TOO_DEEP {
+                tell(index, lane);
             }
-            continue;
         }
-        tell(to, lane);
+        workgroupBarrier();
     }
 }
 
-// Hides the samples: LIT or HIDDEN (with the candidates that tell) where all or none are visible for
-// sure, otherwise 0.
-fn hide(s: Sight, index: u32, list: List, last: vec3<u32>, lane: u32) -> vec4<u32> {
+// Hides the samples behind everything on a list.
+fn hide(s: Sight, list: List, lane: u32) {
     if lane == 0u {
         atomicStore(&tally, 0u);
+        atomicStore(&throughout, 0);
+        atomicStore(&deepest, 0);
     }
+    draw(s, lane);
     workgroupBarrier();
-    // What hid the light from the neighbour comes first.
-    if last.y > 0u {
-        if lane < last.y && candidate(s, last.x + lane, last.z).whole {
-            atomicOr(&tally, WHOLE);
-        }
-        workgroupBarrier();
-        let hidden = atomicLoad(&tally) != 0u;
-        workgroupBarrier();
-        if hidden {
-            return vec4<u32>(HIDDEN, last);
-        }
+    if list.edges > 0u && !count_layers(s, list, lane) {
+        return;
     }
+    // Triangles one by one.
     var at = list.first;
+    var i = 0u;
     var surveyed = 0u;
     while at != NONE {
-        let length = pool[at + 1u];
-        for (var i = 0u; i < length; i += LANES) {
-            let place = at + 2u + i;
-            surveyed += min(length - i, LANES);
-            if i + lane < length {
-                let seen = candidate(s, place + lane, length);
-                if seen.whole {
-                    atomicOr(&tally, WHOLE);
-                } else if seen.some {
-                    kept[atomicAdd(&tally, 1u) & 0xffu] = pool[place + lane];
+        var now = 0u;
+        while at != NONE && now <= KEPT - LANES {
+            let length = pool[at + 1u];
+            if i < length {
+                let place = at + 3u + i + lane;
+                if i + lane < length && candidate(s, place, length).some {
+                    kept[atomicAdd(&tally, 1u) & 0xffu] = pool[place] & ~CLEAR;
                 }
-            }
-            workgroupBarrier();
-            let now = atomicLoad(&tally);
-            workgroupBarrier();
-            if now >= WHOLE {
-                return vec4<u32>(HIDDEN, place, min(length - i, LANES), length);
-            }
-            if now > KEPT - LANES {
-                if !settle(s, index, now, lane) {
-                    return vec4<u32>(0u);
-                }
+                surveyed += min(length - i, LANES);
+                i += LANES;
+                workgroupBarrier();
+                now = atomicLoad(&tally);
+                workgroupBarrier();
+            } else {
+                at = pool[at];
+                i = 0u;
             }
         }
-        at = pool[at];
+        if now > 0u && !settle(s, now, lane) {
+            return;
+        }
     }
     broken = broken || surveyed != list.length;
-    let rest = atomicLoad(&tally);
-    workgroupBarrier();
-    if rest > 0u || (s.across && !drawn) {
-        settle(s, index, rest, lane);
-    }
-    return vec4<u32>(select(LIT, 0u, drawn), 0u, 0u, 0u);
 }
 
 // Looks at a candidate by its place in a chunk of the list: the slots, then each coordinate of all.
@@ -154,27 +112,8 @@ fn candidate(s: Sight, place: u32, length: u32) -> Seen {
     return survey(s, pool[place], triangle);
 }
 
-fn corner(place: u32, length: u32) -> vec3<f32> {
-    return bitcast<vec3<f32>>(vec3<u32>(pool[place], pool[place + length], pool[place + 2u * length]));
-}
-
 // Hides the samples behind the triangles on the list and empties it; whether any is visible still.
-fn settle(s: Sight, index: u32, count: u32, lane: u32) -> bool {
-    if !drawn {
-        let seed = seed_of(index);
-        turn = turn_of(seed);
-        let ruling = ruling_of(turn, seed, lane);
-        // each row
-        row_ROW = drawn_row(s, ruling, STRIDES * ROWu + lane / REPLICATES);
-        // end
-        drawn = true;
-        if s.across {
-            let below = line_of(turn, -s.horizon);
-            // each row
-            row_ROW.hidden = under(s, below, row_ROW);
-            // end
-        }
-    }
+fn settle(s: Sight, count: u32, lane: u32) -> bool {
     for (var t = lane; t < count; t += LANES) {
         keep(s, t, kept[t]);
     }
@@ -188,21 +127,85 @@ fn settle(s: Sight, index: u32, count: u32, lane: u32) -> bool {
         t++;
     }
     broken = broken || t != count;
+    return any_visible(lane);
+}
+
+// Whether a sample of any lane is visible still; empties the list.
+fn any_visible(lane: u32) -> bool {
     var open = 0u;
     // each row
     open |= row_ROW.inside & ~row_ROW.hidden;
-    // end
+    // end row
     if open != 0u {
         atomicOr(&tally, VISIBLE);
     }
     workgroupBarrier();
-    let visible = atomicLoad(&tally) != 0u;
+    let visible = (atomicLoad(&tally) & VISIBLE) != 0u;
     workgroupBarrier();
     if lane == 0u {
         atomicStore(&tally, 0u);
     }
     workgroupBarrier();
     return visible;
+}
+
+// Hides the samples that have layers before them; whether any is visible still.
+fn count_layers(s: Sight, list: List, lane: u32) -> bool {
+    var at = list.first;
+    var i = 0u;
+    var met = 0u;
+    var crossing = 0u;
+    while at != NONE {
+        var now = 0u;
+        while at != NONE && now <= RUNS - LANES {
+            let sides = pool[at + 2u];
+            if i < sides {
+                if i + lane < sides {
+                    meet(s, at + 3u + 10u * pool[at + 1u] + i + lane, sides);
+                }
+                met += min(sides - i, LANES);
+                i += LANES;
+                workgroupBarrier();
+                now = atomicLoad(&tally);
+                workgroupBarrier();
+                crossing |= now & CROSSING;
+                now &= COUNT;
+            } else {
+                at = pool[at];
+                i = 0u;
+            }
+        }
+        // Without an edge that crosses the light nothing is before it: the glance would have told.
+        if at != NONE || crossing != 0u {
+            wind(s, now);
+        }
+        workgroupBarrier();
+        if lane == 0u {
+            atomicStore(&tally, 0u);
+        }
+        workgroupBarrier();
+    }
+    broken = broken || met != list.edges;
+    if crossing == 0u {
+        return true;
+    }
+    deep = deep || atomicLoad(&deepest) + max(atomicLoad(&throughout), 0) > MOST_LAYERS;
+    hide_layered();
+    return any_visible(lane);
+}
+
+// Draws the rows.
+fn draw(s: Sight, lane: u32) {
+    let ruling = ruling_of(s.turn, s.seed, lane);
+    // each row
+    row_ROW = drawn_row(s, ruling, STRIDES * ROWu + lane / REPLICATES);
+    // end row
+    if s.across {
+        let below = line_of(s.turn, -s.horizon);
+        // each row
+        row_ROW.hidden = under(s, below, row_ROW);
+        // end row
+    }
 }
 
 // The samples below the horizon.

@@ -1,8 +1,8 @@
 //! Scanlines on a GPU: the same samples, rows and candidates as `scanlines`, in WGSL.
 //!
-//! A group of neighbouring receivers walks the tree once (walk.wgsl) and lists its candidates; then 32
-//! lanes, 8 replicates with every fourth row each, look at the light from one receiver after another
-//! (look.wgsl). All in f32, the receiver's place and heights over its plane in two of them. What f32
+//! A group of neighbouring receivers walks the tree once and lists what is between: edges and single triangles
+//! (walk.wgsl). A glance, a receiver a lane, tells those that see all of the light or nothing (glance.wgsl); for the
+//! others 32 lanes, 8 replicates with every fourth row each, look at the light (look.wgsl). All in f32, the receiver's place and heights over its plane in two of them. What f32
 //! cannot tell is marked and found on the CPU, as is what does not fit; [`Share`] counts.
 //!
 //! The only place of this crate that knows wgpu.
@@ -23,7 +23,8 @@ use kernels::Kernels;
 use prepare::{ACROSS, BELOW, IN_AIR, OTHER, Prepared};
 use rayon::prelude::*;
 use scene::{Planes, Scene};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::Ordering::Relaxed;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use task::Task;
 use umbrage_device::{AdapterChoice, AdapterDescription, Device, DeviceError};
 use umbrage_scene::AreaLight;
@@ -32,11 +33,14 @@ use umbrage_scene::AreaLight;
 const KINDS: [&str; 4] = ["SUN", "RECT", "DISK", "SPHERE"];
 /// Points of one upload, at most: their results take 64 MiB.
 const MOST_POINTS: usize = 1 << 22;
-/// First words of results (look.wgsl).
+/// Points that are prepared while the GPU is at those before.
+const SLICE: usize = 1 << 19;
+/// First words of results (list.wgsl).
 const LIT: u32 = 0xffff_ffff;
 const HIDDEN: u32 = 0xffff_fffe;
 const FOR_CPU: u32 = 0xffff_fffd;
 const AGAIN: u32 = 0xffff_fffc;
+const TOO_DEEP: u32 = 0xffff_fffb;
 /// No replicate has no samples.
 const UNWRITTEN: u32 = 0;
 
@@ -50,9 +54,11 @@ pub struct TruthGpu {
 pub struct GpuTracer<'a> {
     tracer: &'a Tracer,
     gpu: &'a TruthGpu,
-    planes: Planes,
+    planes: Arc<Planes>,
     scene: Scene,
     buffers: Buffers,
+    /// Kept for its room.
+    receivers: Vec<[u32; 4]>,
     /// With which of `run::BATCHES` a call begins.
     company: usize,
     share: Share,
@@ -76,8 +82,17 @@ pub struct Share {
 pub struct KernelSeconds {
     /// Groups through the tree.
     pub walk: f64,
-    /// Receivers at the light.
+    /// All receivers, whether they see all of the light or nothing.
+    pub glance: f64,
+    /// The others, at their samples.
     pub look: f64,
+}
+
+impl KernelSeconds {
+    /// Of all kernels.
+    pub fn all(&self) -> f64 {
+        self.walk + self.glance + self.look
+    }
 }
 
 impl TruthGpu {
@@ -118,11 +133,20 @@ impl<'a> GpuTracer<'a> {
         if tracer.has_masks() {
             return Err(ReferenceError::MasksOnGpu);
         }
-        let planes = Planes::new(tracer);
+        let planes = Arc::new(Planes::new(tracer));
         let scene = Scene::new(tracer, &planes, &gpu.device)?;
         let buffers = Buffers::new(&gpu.device, run::BATCHES[0]);
         gpu.device.wait()?;
-        Ok(Self { tracer, gpu, planes, scene, buffers, company: 0, share: Share::default() })
+        Ok(Self {
+            tracer,
+            gpu,
+            planes,
+            scene,
+            buffers,
+            receivers: Vec::new(),
+            company: 0,
+            share: Share::default(),
+        })
     }
 
     /// The scene.
@@ -185,89 +209,143 @@ impl<'a> GpuTracer<'a> {
             return Ok(self.tracer.equal(points, light, settings));
         };
         if points.len() <= MOST_POINTS {
-            return self.some(points, (light, task), settings);
+            return self.some(points, (light, task), settings, false);
         }
         let mut all = GroundTruth::sized(points.len(), settings.basis_samples > 0);
         for start in (0..points.len()).step_by(MOST_POINTS) {
             let range = start..(start + MOST_POINTS).min(points.len());
-            let found = self.some(&points.range(range.clone()), (light, task), settings)?;
+            let found = self.some(&points.range(range.clone()), (light, task), settings, false)?;
             all.put(&range.map(|i| i as u32).collect::<Vec<u32>>(), &found);
         }
         Ok(all)
     }
 
-    /// As many points as fit.
+    /// As many points as fit; `deep` where there may be more layers than a byte counts.
     fn some(
         &mut self,
         points: &Points,
         (light, task): (&AreaLight, Task),
         settings: &TruthSettings,
+        deep: bool,
     ) -> Result<GroundTruth, ReferenceError> {
-        let prepared = Prepared::new((&self.tracer.surfaces, &self.planes), points, light);
-        let count = points.len();
+        let (planes, count) = (Arc::clone(&self.planes), points.len());
+        let mut prepared = Prepared::new((&self.tracer.surfaces, &planes), points, light);
+        let mut call = self.begin(count, (light, task), settings, deep)?;
+        let mut receivers = std::mem::take(&mut self.receivers);
+        let tracer = self.tracer;
+        let here = |group: &[u32]| tracer.equal(&points.pick(group), light, settings);
+        let found = Mutex::new(Vec::new());
+        rayon::in_place_scope(|scope| {
+            for start in (0..count).step_by(SLICE) {
+                let (range, before) = (start..(start + SLICE).min(count), prepared.count);
+                let (some, groups) = prepared.next(range.clone(), &mut receivers);
+                let others = prepared.others(range);
+                if !others.is_empty() {
+                    let (found, here) = (&found, &here);
+                    scope.spawn(move |_| {
+                        let truth = here(&others);
+                        found.lock().unwrap_or_else(PoisonError::into_inner).push((others, truth));
+                    });
+                }
+                if some > 0 {
+                    self.send(&mut call, (&receivers[..some], before), &prepared.groups[groups])?;
+                }
+            }
+            Ok::<(), ReferenceError>(())
+        })?;
+        self.receivers = receivers;
         let mut truth = GroundTruth::sized(count, settings.basis_samples > 0);
-        truth.samples.fill(samples(settings, light));
-        let marked = if prepared.order.is_empty() {
-            decode(&prepared.words, &vec![[FOR_CPU; 4]; count], &mut truth)
-        } else {
-            self.look(&prepared, (light, task), settings)?;
-            self.gpu.device.read_with(&self.buffers.staging, |bytes| {
-                decode(&prepared.words, bytemuck::cast_slice(&bytes[..16 * count]), &mut truth)
-            })?
+        let number = samples(settings, light);
+        truth.samples.par_iter_mut().for_each(|n| *n = number);
+        let mut others = 0;
+        for (group, found) in found.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            truth.put(&group, &found);
+            others += group.len();
+        }
+        let mut marked = Vec::new();
+        if prepared.count > 0 {
+            self.finish(call, &prepared)?;
+            marked = self.gpu.device.read_with(&self.buffers.staging, |bytes| {
+                decode(&prepared, bytemuck::cast_slice(bytes), &mut truth)
+            })?;
+        }
+        let of = |again: bool| {
+            let those = marked.iter().filter(|(_, marked)| (*marked == Marked::Deep && !deep) == again);
+            those.map(|&(index, _)| index).collect::<Vec<u32>>()
         };
-        let below = prepared.words.par_iter().filter(|&&w| w == BELOW).count();
+        let [cpu, again] = [false, true].map(of);
+        let below = count - others - prepared.count as usize;
         self.share.below += below;
-        self.share.cpu += marked.len();
-        self.share.gpu += count - below - marked.len();
-        if !marked.is_empty() {
-            truth.put(&marked, &self.tracer.equal(&points.pick(&marked), light, settings));
+        self.share.cpu += others + cpu.len();
+        self.share.gpu += count - below - others - marked.len();
+        if !cpu.is_empty() {
+            truth.put(&cpu, &here(&cpu));
+        }
+        if !again.is_empty() {
+            truth.put(&again, &self.some(&points.pick(&again), (light, task), settings, true)?);
         }
         Ok(truth)
     }
 }
 
-/// Fills in what the GPU found; the points that are the CPU's.
-fn decode(words: &[u32], results: &[[u32; 4]], truth: &mut GroundTruth) -> Vec<u32> {
+/// Fills in what the GPU found; the receivers that are the CPU's.
+fn decode(prepared: &Prepared<'_>, results: &[[u32; 4]], truth: &mut GroundTruth) -> Vec<(u32, Marked)> {
     // NaN: the basis' pass was lost.
     let wants_basis = !truth.basis.is_empty();
+    let places = &prepared.places;
     let [first, second] = &mut truth.halves;
     let mean = truth.mean.par_iter_mut().zip(first).zip(second).zip(&mut truth.variance);
     let into = mean.zip(&mut truth.facing);
-    let from = words.par_iter().zip(results);
     let marked = into
-        .zip(from)
+        .zip(places)
         .enumerate()
-        .filter_map(|(i, (((((mean, first), second), variance), facing), (&word, result)))| {
-            let found = point(word, result).filter(|p| !wants_basis || !p.basis.is_nan());
-            let Some(point) = found else { return Some(i as u32) };
+        .filter_map(|(i, (((((mean, first), second), variance), facing), place))| {
+            let point = match place.load(Relaxed) {
+                BELOW => PointTruth::exact(0.0, false),
+                OTHER => return None,
+                place => match point(place, results) {
+                    Ok(point) if !(wants_basis && point.basis.is_nan()) => point,
+                    Ok(_) => return Some((i as u32, Marked::Cpu)),
+                    Err(marked) => return Some((i as u32, marked)),
+                },
+            };
             (*mean, [*first, *second], *variance) = (point.mean, point.halves, point.variance);
             *facing = point.facing;
             None
         })
         .collect();
-    truth.basis.par_iter_mut().zip(words.par_iter().zip(results)).for_each(|(basis, (&word, result))| {
-        *basis = point(word, result).map_or(0.0, |p| p.basis);
+    truth.basis.par_iter_mut().zip(places).for_each(|(basis, place)| {
+        let found = match place.load(Relaxed) {
+            BELOW => Some(PointTruth::exact(0.0, false)),
+            OTHER => None,
+            place => point(place, results).ok(),
+        };
+        *basis = found.map_or(*basis, |point| point.basis);
     });
     marked
 }
 
-/// One point; `None` where it is the CPU's.
-fn point(word: u32, result: &[u32; 4]) -> Option<PointTruth> {
-    match word {
-        BELOW => return Some(PointTruth::exact(0.0, false)),
-        OTHER => return None,
-        _ => {}
-    }
-    let facing = word & ACROSS == 0;
-    let [first, second, share, variance] = *result;
+/// Who has to find what a look did not.
+#[derive(Clone, Copy, PartialEq)]
+enum Marked {
+    Cpu,
+    /// A look that counts more layers.
+    Deep,
+}
+
+/// What a receiver found.
+fn point(place: u32, results: &[[u32; 4]]) -> Result<PointTruth, Marked> {
+    let facing = place & ACROSS == 0;
+    let [first, second, share, variance] = results[(place & !ACROSS) as usize];
     match first {
-        LIT => return Some(PointTruth::exact(1.0, facing)),
-        HIDDEN => return Some(PointTruth::exact(0.0, facing)),
-        FOR_CPU | AGAIN | UNWRITTEN => return None,
+        LIT => return Ok(PointTruth::exact(1.0, facing)),
+        HIDDEN => return Ok(PointTruth::exact(0.0, facing)),
+        FOR_CPU | AGAIN | UNWRITTEN => return Err(Marked::Cpu),
+        TOO_DEEP => return Err(Marked::Deep),
         _ => {}
     }
     let halves = [first, second].map(|h| f64::from(h & 0xffff) / f64::from(h >> 16).max(1.0));
-    Some(PointTruth {
+    Ok(PointTruth {
         halves: halves.map(|h| h as f32),
         basis: f32::from_bits(share),
         mean: (0.5 * (halves[0] + halves[1])) as f32,

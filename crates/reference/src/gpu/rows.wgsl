@@ -11,13 +11,17 @@ struct Row {
     shift: f32,
     inside: u32,
     hidden: u32,
+    // Layers before some samples, 32 / FIELDS bits each.
+    // each word
+    layers_WORD: u32,
+    // end word
 }
 
 // Rows are named, not numbered: loops over an array would keep it in memory. The host writes what is
-// between `each row` and `end` LANE_ROWS times.
+// between `each row` and `end row` once for each.
 // each row
 var<private> row_ROW: Row;
-// end
+// end row
 
 // How rows lie on the light: x = xx x' + xy y', y = yx x' + yy y' as (xx, xy, yx, yy).
 fn turn_of(seed: vec2<u32>) -> vec4<f32> {
@@ -112,11 +116,10 @@ fn wrapped(whole: f32, part: f32, shift: f32, falls: bool) -> u32 {
     if whole >= f32(EXTRA) && whole < f32(BASE_ROWS - EXTRA) {
         return EVERY;
     }
+    // One that starts beyond an end enters, all others leave: at its first sample beyond the end.
+    let enters = select((whole < 0.0), (whole >= f32(BASE_ROWS)), falls);
+    let end = select(-whole, f32(BASE_ROWS) - whole, enters == falls);
     let rise = select(1.0, -1.0, falls) * f32(EXTRA);
-    var bits = 0u;
-    for (var i = 0u; i < PER_ROW; i++) {
-        let strip = whole + floor(part + rise * (f32(i) + shift) / f32(PER_ROW));
-        bits |= select(0u, 1u << i, strip >= 0.0 && strip < f32(BASE_ROWS));
-    }
-    return bits;
+    let bits = before((end - part) * (f32(PER_ROW) / rise) - shift);
+    return select(bits, ~bits, enters) & EVERY;
 }

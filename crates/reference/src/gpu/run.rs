@@ -2,7 +2,7 @@
 
 use super::buffers::Buffers;
 use super::kernels::{Kernel, LookFor};
-use super::prepare::{Group, Prepared};
+use super::prepare::{Group, Prepared, TOGETHER};
 use super::scene::Scene;
 use super::task::{Task, kind};
 use super::{AGAIN, GpuTracer};
@@ -20,87 +20,139 @@ pub(super) const BATCHES: [usize; 6] = [16_384, 4096, 1024, 256, 16, 1];
 const CROWDED: usize = 8;
 /// Timestamps of a round, two a pass.
 const MOST_TIMES: u32 = 512;
-/// Parts of a group of 64, each a workgroup's (`RECEIVERS` in look.wgsl).
-const PARTS: u32 = 4;
+/// Workgroups that share a queue, at most: as many as a large device holds at once.
+const WORKERS: u32 = 32_768;
+/// Receivers that each takes at a time (`RECEIVERS` in look.wgsl).
+const AT_A_TIME: u32 = 4;
 
 /// The kernels of a call.
 struct Compiled {
     walk: Arc<Kernel>,
+    glance: Arc<Kernel>,
     /// The mean's, then the basis'.
     looks: Vec<Arc<Kernel>>,
 }
 
-/// Passes of a round so far: whether each was a walk.
-type Passes = Vec<bool>;
+/// Passes of a round so far.
+type Passes = Vec<Pass>;
+
+#[derive(Clone, Copy)]
+enum Pass {
+    Walk,
+    Glance,
+    Look,
+}
+
+/// Dispatches for a number of points.
+pub(super) struct Call {
+    compiled: Compiled,
+    task: Task,
+    times: Option<wgpu::QuerySet>,
+    passes: Passes,
+}
 
 impl GpuTracer<'_> {
-    /// Runs the kernels and leaves the results in the staging buffer.
-    pub(super) fn look(
+    /// Makes ready for so many points.
+    pub(super) fn begin(
         &mut self,
-        prepared: &Prepared,
+        points: usize,
         (light, mut task): (&AreaLight, Task),
         settings: &TruthSettings,
-    ) -> Result<(), ReferenceError> {
-        let compiled = self.compile(light, settings)?;
+        deep: bool,
+    ) -> Result<Call, ReferenceError> {
+        let compiled = self.compile(light, settings, deep)?;
         let device = &self.gpu.device;
-        self.buffers.fit(device, prepared)?;
-        let queue = &device.queue;
-        queue.write_buffer(&self.buffers.receivers, 0, bytemuck::cast_slice(&prepared.receivers));
-        queue.write_buffer(&self.buffers.order, 0, bytemuck::cast_slice(&prepared.order));
+        self.buffers.fit(device, points)?;
         let mut encoder = device.device.create_command_encoder(&Default::default());
         // What stays 0 was not written.
         encoder.clear_buffer(&self.buffers.results, 0, None);
-        queue.submit([encoder.finish()]);
+        device.queue.submit([encoder.finish()]);
         task.extent = self.tracer.surfaces.extent;
         task.pool_words = (self.buffers.pool.size() / 4) as u32;
         task.root = self.scene.root;
+        Ok(Call { compiled, task, times: device.timestamps("truth", MOST_TIMES), passes: Passes::new() })
+    }
+
+    /// Sends receivers, of which so many were sent before, and the groups they stand in, and lets the kernels run.
+    pub(super) fn send(
+        &mut self,
+        call: &mut Call,
+        (receivers, before): (&[[u32; 4]], u32),
+        groups: &[Group],
+    ) -> Result<(), ReferenceError> {
+        let bytes = bytemuck::cast_slice(receivers);
+        self.gpu.device.queue.write_buffer(&self.buffers.receivers, 16 * u64::from(before), bytes);
+        self.batches(call, groups, BATCHES[self.company])
+    }
+
+    /// Waits for the results and leaves them in the staging buffer, in the order of the receivers.
+    pub(super) fn finish(&mut self, mut call: Call, prepared: &Prepared<'_>) -> Result<(), ReferenceError> {
         let mut groups = Cow::Borrowed(&prepared.groups[..]);
-        let mut company = self.company;
-        for (round, &size) in BATCHES[self.company..].iter().enumerate() {
-            queue.write_buffer(&self.buffers.groups, 0, bytemuck::cast_slice(&groups));
-            let times = device.timestamps("truth", MOST_TIMES);
-            let mut passes = Passes::new();
-            for first in (0..groups.len()).step_by(size) {
-                task.first_group = first as u32;
-                let count = size.min(groups.len() - first) as u32;
-                self.batch(&task, &compiled, count, (times.as_ref(), &mut passes))?;
-            }
+        let (first, mut next) = (self.company, self.company);
+        for company in first.. {
+            let device = &self.gpu.device;
             let mut encoder = device.device.create_command_encoder(&Default::default());
-            let bytes = 16 * prepared.words.len() as u64;
+            let bytes = 16 * u64::from(prepared.count);
             encoder.copy_buffer_to_buffer(&self.buffers.results, 0, &self.buffers.staging, 0, bytes);
-            let count = 2 * passes.len() as u32;
-            let times = times.as_ref().filter(|_| count <= MOST_TIMES);
+            let count = 2 * call.passes.len() as u32;
+            let times = call.times.as_ref().filter(|_| count <= MOST_TIMES);
             let times = times.map(|queries| device.resolve(&mut encoder, queries, count));
-            queue.submit([encoder.finish()]);
-            self.time(times, &passes)?;
-            let left = self.left(prepared, &groups)?;
-            if left.is_empty() {
-                break;
-            }
-            if round == 0 && left.len() > groups.len() / CROWDED {
-                company = (self.company + 1).min(BATCHES.len() - 1);
+            device.queue.submit([encoder.finish()]);
+            let left = self.left(&groups)?;
+            self.time(times, &call.passes)?;
+            let Some(&smaller) = BATCHES.get(company + 1).filter(|_| !left.is_empty()) else { break };
+            if company == first && left.len() > groups.len() / CROWDED {
+                next = first + 1;
             }
             groups = Cow::Owned(left);
+            call.times = self.gpu.device.timestamps("truth", MOST_TIMES);
+            call.passes.clear();
+            self.batches(&mut call, &groups, smaller)?;
         }
-        self.company = company;
+        self.company = next;
         Ok(())
     }
 
-    fn compile(&self, light: &AreaLight, settings: &TruthSettings) -> Result<Compiled, ReferenceError> {
+    fn batches(&mut self, call: &mut Call, groups: &[Group], size: usize) -> Result<(), ReferenceError> {
+        // What the GPU is at is left in peace; its patience is for a batch, not for a whole picture on a slow driver.
+        let device = &self.gpu.device;
+        device.wait()?;
+        self.buffers.fit_groups(device, size_of_val(groups))?;
+        device.queue.write_buffer(&self.buffers.groups, 0, bytemuck::cast_slice(groups));
+        for first in (0..groups.len()).step_by(size) {
+            if first > 0 {
+                device.wait()?;
+            }
+            call.task.first_group = first as u32;
+            let count = size.min(groups.len() - first) as u32;
+            let Call { compiled, task, times, passes } = call;
+            self.batch(task, compiled, count, (times.as_ref(), passes))?;
+        }
+        Ok(())
+    }
+
+    fn compile(
+        &self,
+        light: &AreaLight,
+        settings: &TruthSettings,
+        deep: bool,
+    ) -> Result<Compiled, ReferenceError> {
         let rulings = Rulings::new(settings, light);
         let kind = kind(light);
         let mut kernels = self.gpu.kernels();
         let device = &self.gpu.device;
         let sets = std::iter::once(&rulings.mean).chain(rulings.basis.as_ref()).enumerate();
-        let looks =
-            sets.map(|(set, ruling)| kernels.look(device, LookFor::new(kind, set as u32, ruling))).collect();
-        let compiled = Compiled { walk: kernels.walk(device, kind), looks };
+        let looks = sets
+            .map(|(set, ruling)| kernels.look(device, LookFor::new((kind, set as u32), ruling, deep)))
+            .collect();
+        let compiled =
+            Compiled { walk: kernels.walk(device, kind), glance: kernels.glance(device, kind), looks };
         device.check()?;
         Ok(compiled)
     }
 
     /// Adds up what the passes took.
-    fn time(&mut self, times: Option<wgpu::Buffer>, passes: &[bool]) -> Result<(), ReferenceError> {
+    fn time(&mut self, times: Option<wgpu::Buffer>, passes: &[Pass]) -> Result<(), ReferenceError> {
         let device = &self.gpu.device;
         let ticks = times.map(|staging| device.read::<u64>(&staging)).transpose()?;
         let period = f64::from(device.queue.get_timestamp_period()) * 1e-9;
@@ -108,14 +160,18 @@ impl GpuTracer<'_> {
             self.share.kernels = None;
             return Ok(());
         };
-        for (ticks, &walk) in ticks.chunks_exact(2).zip(passes) {
+        for (ticks, pass) in ticks.chunks_exact(2).zip(passes) {
             let took = ticks[1].saturating_sub(ticks[0]) as f64 * period;
-            *(if walk { &mut seconds.walk } else { &mut seconds.look }) += took;
+            *match pass {
+                Pass::Walk => &mut seconds.walk,
+                Pass::Glance => &mut seconds.glance,
+                Pass::Look => &mut seconds.look,
+            } += took;
         }
         Ok(())
     }
 
-    /// One submission: the walk of some groups, then a look for each set of samples.
+    /// One submission: the walk of some groups, a glance, then a look for each set of samples.
     fn batch(
         &self,
         task: &Task,
@@ -126,11 +182,12 @@ impl GpuTracer<'_> {
         let device = &self.gpu.device;
         let gpu = &device.device;
         let task = device.upload("task", bytemuck::bytes_of(task), Usage::UNIFORM)?;
-        let Buffers { receivers, order, groups, results, pool, heads, next_free, .. } = &self.buffers;
+        let Buffers { receivers, groups, results, pool, heads, next_free, queue, .. } = &self.buffers;
         let Scene { nodes, corners, planes, .. } = &self.scene;
         let mut encoder = gpu.create_command_encoder(&Default::default());
         encoder.clear_buffer(next_free, 0, None);
-        let mut run = |kernel: &Kernel, bound: &[&wgpu::Buffer], parts: Option<u32>| {
+        encoder.clear_buffer(queue, 0, Some(8));
+        let mut run = |kernel: &Kernel, bound: &[&wgpu::Buffer], (workgroups, which): (u32, Pass)| {
             let entries: Vec<wgpu::BindGroupEntry<'_>> = std::iter::once(&task)
                 .chain(bound.iter().copied())
                 .enumerate()
@@ -151,27 +208,30 @@ impl GpuTracer<'_> {
                     beginning_of_pass_write_index: Some(at),
                     end_of_pass_write_index: Some(at + 1),
                 });
-            passes.push(parts.is_none());
+            passes.push(which);
             let descriptor = wgpu::ComputePassDescriptor { label: None, timestamp_writes };
             let mut pass = encoder.begin_compute_pass(&descriptor);
             pass.set_pipeline(&kernel.pipeline);
             pass.set_bind_group(0, &bind_group, &[]);
-            pass.dispatch_workgroups(count, parts.unwrap_or(1), 1);
+            pass.dispatch_workgroups(workgroups, 1, 1);
         };
-        run(&compiled.walk, &[corners, receivers, groups, nodes, pool, heads, next_free], None);
-        for look in &compiled.looks {
-            run(look, &[corners, receivers, groups, planes, pool, heads, results, order], Some(PARTS));
+        let walk = [corners, receivers, groups, nodes, pool, heads, next_free, planes];
+        run(&compiled.walk, &walk, (count, Pass::Walk));
+        let look = [corners, receivers, groups, planes, pool, heads, results, queue];
+        run(&compiled.glance, &look, (count, Pass::Glance));
+        let workers = WORKERS.min((count * TOGETHER as u32).div_ceil(AT_A_TIME));
+        for kernel in &compiled.looks {
+            run(kernel, &look, (workers, Pass::Look));
         }
         device.queue.submit([encoder.finish()]);
-        // The device's patience is for a batch, not for a whole picture on a slow driver.
-        Ok(device.wait()?)
+        Ok(device.check()?)
     }
 
     /// The groups that found no room in the pool.
-    fn left(&self, prepared: &Prepared, groups: &[Group]) -> Result<Vec<Group>, ReferenceError> {
+    fn left(&self, groups: &[Group]) -> Result<Vec<Group>, ReferenceError> {
         Ok(self.gpu.device.read_with(&self.buffers.staging, |bytes| {
             let results: &[[u32; 4]] = bytemuck::cast_slice(bytes);
-            let again = |g: &&Group| results[prepared.order[g.first as usize] as usize][0] == AGAIN;
+            let again = |g: &&Group| results[g.first as usize][0] == AGAIN;
             groups.par_iter().filter(again).copied().collect()
         })?)
     }

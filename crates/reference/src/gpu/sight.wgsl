@@ -1,32 +1,52 @@
 // A receiver and the light as it sees it (scanlines/frame.rs, aim.rs).
 
+// Two a slot: a unit normal with its offset, then what f32 left of them.
+@group(0) @binding(4) var<storage, read> planes: array<vec4<f32>>;
+
 struct Sight {
-    // The place is the sum of these two.
+    // The place is the sum of this and `rest`.
     place: vec3<f32>,
+    // Depth before which a surface hides for sure, and from which it never does.
+    near: f32,
     rest: vec3<f32>,
+    far: f32,
     // Zero in mid-air.
     normal: vec3<f32>,
     slot: u32,
-    back: bool,
-    across: bool,
     // Light from world.
     x: vec3<f32>,
-    y: vec3<f32>,
-    z: vec3<f32>,
-    // Depth before which a surface hides for sure, and from which it never does.
-    near: f32,
-    far: f32,
-    // Sum of the place's coordinates without signs.
-    extent: f32,
-    // The normal in the light's axes: the horizon.
-    horizon: vec3<f32>,
-    // A cone's angle, sine, tangent, tangent / angle.
-    cone: vec4<f32>,
     // A cone's sine and cosine squared.
     sin2: f32,
+    y: vec3<f32>,
     cos2: f32,
+    z: vec3<f32>,
+    // The normal in the light's axes: the horizon.
+    horizon: vec3<f32>,
+    // 1 if layers count upwards in these axes, -1 if they are the other hand's.
+    handed: i32,
+    // A cone's angle, sine, tangent, tangent / angle.
+    cone: vec4<f32>,
+    // How rows lie on the light; only where they are looked at.
+    turn: vec4<f32>,
+    seed: vec2<u32>,
+    back: bool,
+    across: bool,
     // What f32 cannot do: seen edge-on, or from close to a sphere.
     thin: bool,
+}
+
+// What is the same from everywhere is read from where it stands.
+fn standing(kept: Sight) -> Sight {
+    var s = kept;
+    if KIND == SUN {
+        s.x = task.rows[0].xyz;
+        s.y = task.rows[1].xyz;
+        s.z = task.rows[2].xyz;
+        s.near = 3e38;
+        s.far = 3e38;
+        s.cone = task.cone;
+    }
+    return s;
 }
 
 fn sight_of(index: u32) -> Sight {
@@ -36,7 +56,6 @@ fn sight_of(index: u32) -> Sight {
     s.slot = word.w & IN_AIR;
     s.back = (word.w & BACK) != 0u;
     s.across = (word.w & ACROSS) != 0u;
-    s.extent = abs(s.place.x) + abs(s.place.y) + abs(s.place.z);
     var facing = 1.0;
     if s.slot != IN_AIR {
         facing = select(1.0, -1.0, s.back);
@@ -90,6 +109,7 @@ fn sight_of(index: u32) -> Sight {
         let to_axis = select(facing * height(s.slot, task.centre), dot(s.normal, task.axis), KIND == SUN);
         s.horizon = vec3<f32>(dot(s.normal, u), dot(s.normal, v), to_axis);
     }
+    s.handed = select(1, -1, dot(cross(s.x, s.y), s.z) > 0.0);
     return s;
 }
 

@@ -1,5 +1,4 @@
-// A triangle as one receiver sees it against the light, and the lines that its edges are
-// (scanlines/blocks.rs, outline.rs).
+// A triangle as one receiver sees it against the light (scanlines/blocks.rs).
 
 const SMALLEST = 1.17549435e-38;
 
@@ -33,7 +32,7 @@ fn corners_of(slot: u32) -> mat3x3<f32> {
     return mat3x3<f32>(corners[3u * slot].xyz, corners[3u * slot + 1u].xyz, corners[3u * slot + 2u].xyz);
 }
 
-fn survey(s: Sight, slot: u32, triangle: mat3x3<f32>) -> Seen {
+fn survey(s: Sight, word: u32, triangle: mat3x3<f32>) -> Seen {
     var seen: Seen;
     let corner_a = triangle[0];
     let corner_b = triangle[1];
@@ -48,6 +47,24 @@ fn survey(s: Sight, slot: u32, triangle: mat3x3<f32>) -> Seen {
     let nearest = min(a.z, min(b.z, c.z));
     if !(farthest > 0.0 && nearest < s.far) {
         return seen;
+    }
+    var doubtful = false;
+    if (word & CLEAR) == 0u && s.slot != IN_AIR {
+        // Over the horizon, less what is allowed there (`rises`). Differences of near places are exact: f32 rounds
+        // eight times by 2^-24 of them.
+        let allowed = vec3<f32>(
+            allowed_at(s, corner_a), allowed_at(s, corner_b), allowed_at(s, corner_c),
+        );
+        let one = vec3<f32>(1.0);
+        let errors = 1e-6 * vec3<f32>(dot(abs(da), one), dot(abs(db), one), dot(abs(dc), one));
+        let over = vec3<f32>(dot(s.normal, da), dot(s.normal, db), dot(s.normal, dc)) - allowed;
+        if all(over < -errors) {
+            return seen;
+        }
+        doubtful = !any(over > errors);
+        if s.slot == word {
+            return seen;
+        }
     }
     // Off the light on one side: X, -X, Y or -Y is larger than Z at every corner.
     let depths = vec3<f32>(a.z, b.z, c.z) * (1.0 + MARGIN);
@@ -87,14 +104,8 @@ fn survey(s: Sight, slot: u32, triangle: mat3x3<f32>) -> Seen {
     if largest < 0.0 {
         return seen;
     }
-    // A corner surely above the horizon: f32 rounds eight times by 2^-24 of the coordinates.
-    let heights = vec3<f32>(dot(s.normal, da), dot(s.normal, db), dot(s.normal, dc));
-    let errors = vec3<f32>(dot(abs(da), vec3<f32>(1.0)), dot(abs(db), vec3<f32>(1.0)), dot(abs(dc), vec3<f32>(1.0)));
-    let clear = any(heights > 2e-6 * (vec3<f32>(s.extent) + errors));
-    if !clear && s.slot != IN_AIR {
-        if s.slot == slot || !(rises(s, corner_a) || rises(s, corner_b) || rises(s, corner_c)) {
-            return seen;
-        }
+    if doubtful && !(rises(s, corner_a) || rises(s, corner_b) || rises(s, corner_c)) {
+        return seen;
     }
     seen.some = true;
     seen.whole = before && smallest >= 0.0;
@@ -106,51 +117,13 @@ fn survey(s: Sight, slot: u32, triangle: mat3x3<f32>) -> Seen {
     return seen;
 }
 
-// Whether a corner is above the receiver's plane (receiver.rs).
+// How high a corner may be over the receiver's plane and count as in it (receiver.rs).
+fn allowed_at(s: Sight, corner: vec3<f32>) -> f32 {
+    return COPLANAR * dot(abs(s.normal), max(abs(corner), abs(s.place)));
+}
+
+// Whether a corner is above the receiver's plane.
 fn rises(s: Sight, corner: vec3<f32>) -> bool {
-    let rounding = COPLANAR * dot(abs(s.normal), max(abs(corner), abs(s.place)));
     let over = height(s.slot, corner);
-    return select(over, -over, s.back) > rounding;
-}
-
-// x = slope y + at in the rows' coordinates, and whether the inside is to the right.
-struct Line {
-    slope: f32,
-    at: f32,
-    left: bool,
-}
-
-fn line_of(turn: vec4<f32>, e: vec3<f32>) -> Line {
-    let x = e.x * turn.x + e.y * turn.z;
-    let y = e.x * turn.y + e.y * turn.w;
-    // An edge along the rows becomes one that all but is.
-    let wide = max(abs(x), 1e-12 * (abs(y) + abs(e.z)) + SMALLEST);
-    let per = select(-1.0, 1.0, (bitcast<u32>(x) >> 31u) != 0u) / wide;
-    return Line(y * per, e.z * per, per < 0.0);
-}
-
-// The rows that may be touched: the first, and the one after the last.
-fn rows_of(s: Sight, seen: Seen, turn: vec4<f32>) -> vec2<u32> {
-    let depths = vec3<f32>(seen.a.z, seen.b.z, seen.c.z);
-    let xs = vec3<f32>(seen.a.x, seen.b.x, seen.c.x);
-    let ys = vec3<f32>(seen.a.y, seen.b.y, seen.c.y);
-    let nearest = min(depths.x, min(depths.y, depths.z));
-    let farthest = max(depths.x, max(depths.y, depths.z));
-    if !(nearest > 1e-6 * farthest) {
-        return vec2<u32>(0u, ALL_ROWS);
-    }
-    let at = (turn.w * ys - turn.z * xs) / depths;
-    var low = min(at.x, min(at.y, at.z));
-    var high = max(at.x, max(at.y, at.z));
-    if CONE {
-        low = min(low, low * s.cone.w);
-        high = max(high, high * s.cone.w);
-    }
-    let half = 0.5 * f32(BASE_ROWS);
-    let middle = half + f32(ALL_ROWS - BASE_ROWS) * 0.5;
-    // Row j of a replicate stands between j and j + 1.
-    let first = low * half + (middle - 1.0 - MARGIN * half);
-    let last = high * half + (middle + 1.0 + MARGIN * half);
-    let span = floor(clamp(vec2<f32>(first, last), vec2<f32>(0.0), vec2<f32>(255.0)));
-    return min(vec2<u32>(span), vec2<u32>(ALL_ROWS));
+    return select(over, -over, s.back) > allowed_at(s, corner);
 }

@@ -34,11 +34,16 @@ struct Task {
     root: u32,
 }
 
-// A group's candidates: the first chunk of their list, and how many there are.
+// A group's candidates: the first chunk of their list, and how many triangles and edges there are.
 struct List {
     first: u32,
     length: u32,
+    edges: u32,
+    unused: u32,
 }
+
+// With the slot of a listed triangle: it is surely above every receiver's horizon.
+const CLEAR = 0x80000000u;
 
 // First chunks of lists that are none.
 const NONE = 0xffffffffu;
@@ -51,7 +56,8 @@ const BACK = 0x10000000u;
 const ACROSS = 0x20000000u;
 
 @group(0) @binding(0) var<uniform> task: Task;
-// Three corners a slot.
+// Three corners a slot. With each, 16 times the slot that lies on the side from there to the next (IN_AIR if none
+// does), twice two bits of the piece that the triangle is of, and whether the other side goes the other way.
 @group(0) @binding(1) var<storage, read> corners: array<vec4<f32>>;
 @group(0) @binding(2) var<storage, read> receivers: array<vec4<u32>>;
 

@@ -8,6 +8,8 @@ var<private> plane_3: vec4<f32>;
 var<private> plane_4: vec4<f32>;
 var<private> low: vec3<f32>;
 var<private> high: vec3<f32>;
+// How much lower the planes are for boxes: no box is left out of which a triangle is not.
+var<private> loose: f32;
 
 fn side(axis: vec3<f32>, at: vec3<f32>, along: vec3<f32>) -> vec4<f32> {
     let n = cross(at, along);
@@ -51,6 +53,19 @@ fn set_sides(middle: vec3<f32>) {
     plane_3 = side(axis, axis - v, u);
 }
 
+// Around a flat light that some receivers see from its back, or edge-on: two planes along it, two across the way there.
+fn set_slab(middle: vec3<f32>) {
+    let upright = normalize(task.axis);
+    let across = cross(upright, task.centre - middle);
+    let length2 = dot(across, across);
+    let unit = across * inverseSqrt(max(length2, 1e-30));
+    let some = select(0.0, 1.0, length2 > 1e-30);
+    plane_0 = vec4<f32>(upright, 1.0);
+    plane_1 = vec4<f32>(-upright, 1.0);
+    plane_2 = vec4<f32>(unit * some, some);
+    plane_3 = vec4<f32>(-unit * some, some);
+}
+
 // The light's lowest height over a plane. A sun's sides are the same from everywhere.
 fn lowest_of_light(n: vec3<f32>) -> f32 {
     if KIND == SUN {
@@ -79,14 +94,12 @@ fn touches(box_low: vec3<f32>, box_high: vec3<f32>) -> bool {
 }
 
 fn reaches(plane: vec4<f32>, centre: vec3<f32>, half: vec3<f32>) -> bool {
-    return dot(plane.xyz, centre) + dot(abs(plane.xyz), half) >= plane.w;
+    return dot(plane.xyz, centre) + dot(abs(plane.xyz), half) >= plane.w - loose;
 }
 
-fn misses(slot: u32) -> bool {
-    let a = corners[3u * slot].xyz;
-    let b = corners[3u * slot + 1u].xyz;
-    let c = corners[3u * slot + 2u].xyz;
-    return below(plane_0, a, b, c) || below(plane_1, a, b, c) || below(plane_2, a, b, c)
+fn misses(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    return any(min(a, min(b, c)) > high) || any(max(a, max(b, c)) < low)
+        || below(plane_0, a, b, c) || below(plane_1, a, b, c) || below(plane_2, a, b, c)
         || below(plane_3, a, b, c) || below(plane_4, a, b, c);
 }
 

@@ -1,6 +1,8 @@
 //! Scanlines on a GPU against scanlines on the CPU: the same samples, the same answer.
 
-use crate::agreement::{assert_ties_only, blocks, differences, large_soup, lights, low_sun, small_soup};
+use crate::agreement::{
+    assert_ties_only, blocks, differences, large_soup, lights, low_sun, small_soup, thicket,
+};
 use crate::common::*;
 use glam::Vec3;
 use std::sync::OnceLock;
@@ -95,6 +97,86 @@ fn three_hundred_soups() {
     assert!(partial > points_in_all / 20, "only {partial} of {points_in_all} in a penumbra");
     assert!(differing <= points_in_all / 200, "{differing} of {points_in_all} differ");
     assert!(cpu <= points_in_all / MOST_ON_CPU, "{cpu} of {points_in_all} on the CPU");
+}
+
+/// Leaves one on the other: every sample behind them has as many layers, one more than a byte counts among them, where
+/// it would see light again.
+#[test]
+fn more_layers_than_a_byte_counts() {
+    for leaves in [255, 256, 300] {
+        let mut triangles = floor(20.0).to_vec();
+        for i in 0..leaves {
+            // Up to the middle of the lights, seen from about x = 0.
+            let height = 1.0 + 0.004 * i as f32;
+            triangles.extend(quad(Vec3::new(0.4 * height - 3.0, height, 0.0), Vec3::X * 3.0, Vec3::Z * 4.0));
+        }
+        let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+        let points = on_floor((0..200).map(|i| 0.002 * (i as f32 - 99.5)), 0.0);
+        for light in lights() {
+            let (pair, share) = both(&tracer, &points, &light);
+            assert_ties_only(&format!("{leaves} leaves, {light:?}"), &pair);
+            assert_all_the_rest(&pair);
+            assert_eq!(share.cpu, 0, "{leaves} leaves, {light:?}: {share:?}");
+        }
+    }
+}
+
+/// Many leaves without order before large lights: thousands of edges to a group.
+#[test]
+fn a_thicket() {
+    let mut random = Random(47);
+    let points = on_floor((0..150).map(|_| random.unit() - 0.5), 0.5);
+    let centre = Vec3::new(1.8, 5.0, 1.2);
+    let sun = AreaLight::Sun { direction_to_light: Vec3::new(0.3, 1.0, 0.2), angular_diameter_radians: 0.6 };
+    let rect = AreaLight::Rect { centre, half_u: Vec3::X, half_v: Vec3::Z };
+    // As edges, and as triangles.
+    for leaves in [1000, 3000] {
+        let tracer = Tracer::new(&scene(&thicket(&mut random, leaves))).expect("a scene");
+        for light in [sun, rect] {
+            let (pair, share) = both(&tracer, &points, &light);
+            let found = differences(&pair);
+            // Each edge ties at one point in 8,000.
+            let differing = found.iter().filter(|&&d| d > 0).count();
+            let expected = 3 * leaves * points.len() / 8000;
+            assert!(differing <= 2 * expected, "{leaves} leaves, {light:?}: {differing} differ");
+            assert!(found.iter().all(|&d| d <= 6), "{leaves} leaves, {light:?}: {found:?}");
+            let partial = pair[0].mean.iter().filter(|&&m| m > 0.0 && m < 1.0).count();
+            assert!(partial > 140, "{leaves} leaves, {light:?}: {partial} in a penumbra");
+            assert_eq!(share.cpu, 0, "{leaves} leaves, {light:?}: {share:?}");
+        }
+    }
+}
+
+/// Receivers on a wall and in mid-air, on either side of a flat light's plane and in it.
+#[test]
+fn astride_a_lamp() {
+    let mut triangles = quad(Vec3::new(4.0, 1.0, 0.0), Vec3::Y * 3.0, Vec3::Z * 3.0).to_vec();
+    let mut random = Random(53);
+    for _ in 0..60 {
+        let centre = random.vector() * Vec3::new(1.2, 0.8, 2.0) + Vec3::new(2.0, 1.0, 0.0);
+        triangles.extend(block(centre, Vec3::splat(0.1)));
+    }
+    let tracer = Tracer::new(&scene(&triangles)).expect("a scene");
+    let mut points = Points::default();
+    for i in 0..1200 {
+        let in_air = i % 3 == 0;
+        let place = random.vector() * Vec3::new(0.0, 0.3, 1.0) + Vec3::new(4.0, 1.0, 0.0);
+        points.position.push(if in_air { place - Vec3::X * 0.1 } else { place });
+        points.normal.push(if in_air { Vec3::ZERO } else { Vec3::NEG_X });
+        // The wall's diagonal runs from its lowest corner with the least z to the highest.
+        points.triangle.push(if in_air { u32::MAX } else { u32::from(place.y - 1.0 < place.z) });
+    }
+    let centre = Vec3::Y;
+    for light in [
+        AreaLight::Rect { centre, half_u: Vec3::X * 0.4, half_v: Vec3::Z * 0.3 },
+        AreaLight::Disk { centre, normal: Vec3::Y, radius_world: 0.4 },
+    ] {
+        let (pair, share) = both(&tracer, &points, &light);
+        assert_ties_only(&format!("{light:?}"), &pair);
+        assert_all_the_rest(&pair);
+        // Four metres away within 2.2e-3 of edge-on, of heights up to .3: one in 34.
+        assert!(share.cpu > 0 && share.cpu <= points.len() / 20, "{light:?}: {share:?}");
+    }
 }
 
 #[test]
