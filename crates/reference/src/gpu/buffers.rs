@@ -4,7 +4,7 @@ use super::prepare::TOGETHER;
 use umbrage_device::{Device, DeviceError};
 use wgpu::BufferUsages as Usage;
 
-/// Bytes of the pool of candidates, 40 for each, where a binding holds as much.
+/// Bytes of the pool of candidates, 40 for each triangle and 28 for each edge, where a binding holds as much.
 const POOL_BYTES: u64 = 1 << 29;
 
 /// As large as was needed so far.

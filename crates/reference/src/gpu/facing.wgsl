@@ -34,9 +34,9 @@ fn along(n: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
 }
 
 fn side_of(slot: u32) -> i32 {
-    let v0 = corners[3u * slot].xyz;
-    let v1 = corners[3u * slot + 1u].xyz;
-    let v2 = corners[3u * slot + 2u].xyz;
+    let v0 = vertex(3u * slot);
+    let v1 = vertex(3u * slot + 1u);
+    let v2 = vertex(3u * slot + 2u);
     if misses(v0, v1, v2) {
         return OUT;
     }

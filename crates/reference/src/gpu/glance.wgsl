@@ -1,6 +1,6 @@
 // A receiver a lane, or several lanes: tells those that see all of the light or nothing of it, and puts the others into a queue.
 
-// How many stand there, nothing, then each receiver and the list of its group.
+// How many stand there, nothing, then each receiver and the list of its group, with COUNTS.
 @group(0) @binding(8) var<storage, read_write> queue: array<atomic<u32>>;
 
 var<workgroup> queued: atomic<u32>;
@@ -16,7 +16,7 @@ struct Layers {
 
 // A part of the list: of a triangle three corners, of an edge two ends, and with the first what else there is.
 const STAGE = 128u;
-var<workgroup> stage: array<vec4<f32>, 3u * STAGE>;
+var<workgroup> stage: array<vec4<u32>, 3u * STAGE>;
 
 // Lanes that share a receiver, each with another part of what is staged, and what they found: layers, then the
 // pieces crossed, then what triangles tell, then how many they met.
@@ -71,7 +71,8 @@ fn glance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation
     if some && outcome == 0u {
         let at = 2u * (1u + place + turn);
         atomicStore(&queue[at], index);
-        atomicStore(&queue[at + 1u], workgroup.x);
+        let crossed = atomicLoad(&joint[WORDS * own + PIECES / 2u]) != 0u;
+        atomicStore(&queue[at + 1u], workgroup.x | select(0u, COUNTS, crossed));
     }
 }
 
@@ -93,14 +94,12 @@ fn look_over(index: u32, list: List, lane: u32, part: vec2<u32>, joint_at: u32) 
             workgroupBarrier();
             if lane < count {
                 let from_here = at + 3u + 10u * length + first + lane;
-                let word = bitcast<f32>(pool[from_here + 6u * sides]);
-                stage[2u * lane] = vec4<f32>(corner(from_here, sides), word);
-                stage[2u * lane + 1u] = vec4<f32>(corner(from_here + 3u * sides, sides), 0.0);
+                stage[2u * lane] = vec4<u32>(bits(from_here, sides), pool[from_here + 6u * sides]);
+                stage[2u * lane + 1u] = vec4<u32>(bits(from_here + 3u * sides, sides), 0u);
             }
             workgroupBarrier();
             for (var i = part.x; i < count; i += part.y) {
-                let start = stage[2u * i];
-                let seen = see(s, start.xyz, stage[2u * i + 1u].xyz, bitcast<u32>(start.w));
+                let seen = see(s, staged(2u * i), staged(2u * i + 1u), stage[2u * i].w);
                 if crosses(seen) {
                     layers.crossed |= 1u << seen.piece;
                 }
@@ -119,16 +118,15 @@ fn look_over(index: u32, list: List, lane: u32, part: vec2<u32>, joint_at: u32) 
             workgroupBarrier();
             if lane < count {
                 let from_here = at + 3u + first + lane;
-                stage[3u * lane] = vec4<f32>(corner(from_here + length, length), bitcast<f32>(pool[from_here]));
-                stage[3u * lane + 1u] = vec4<f32>(corner(from_here + 4u * length, length), 0.0);
-                stage[3u * lane + 2u] = vec4<f32>(corner(from_here + 7u * length, length), 0.0);
+                stage[3u * lane] = vec4<u32>(bits(from_here + length, length), pool[from_here]);
+                stage[3u * lane + 1u] = vec4<u32>(bits(from_here + 4u * length, length), 0u);
+                stage[3u * lane + 2u] = vec4<u32>(bits(from_here + 7u * length, length), 0u);
             }
             workgroupBarrier();
             for (var i = part.x; i < count; i += part.y) {
                 if (said & WHOLE) == 0u {
-                    let a = stage[3u * i];
-                    let triangle = mat3x3<f32>(a.xyz, stage[3u * i + 1u].xyz, stage[3u * i + 2u].xyz);
-                    let seen = survey(s, bitcast<u32>(a.w), triangle);
+                    let triangle = mat3x3<f32>(staged(3u * i), staged(3u * i + 1u), staged(3u * i + 2u));
+                    let seen = survey(s, stage[3u * i].w, triangle);
                     said |= select(0u, PARTLY, seen.some) | select(0u, WHOLE, seen.whole);
                 }
                 met++;
@@ -146,6 +144,10 @@ fn look_over(index: u32, list: List, lane: u32, part: vec2<u32>, joint_at: u32) 
     atomicAdd(&joint[joint_at + PIECES / 2u + 2u], met);
 }
 
+fn staged(at: u32) -> vec3<f32> {
+    return bitcast<vec3<f32>>(stage[at].xyz);
+}
+
 // A first word of results, or 0 where samples have to tell.
 fn told(list: List, joint_at: u32) -> u32 {
     let crossed = atomicLoad(&joint[joint_at + PIECES / 2u]);
@@ -159,7 +161,8 @@ fn told(list: List, joint_at: u32) -> u32 {
     var whole = 0u;
     var layers = 0u;
     // each pair
-    layers = atomicLoad(&joint[joint_at + PAIRu]);
+    // Less than none, which only rounding makes, takes nothing from the other.
+    layers = (atomicLoad(&joint[joint_at + PAIRu]) + 0x40004000u) ^ 0x40004000u;
     whole |= select(0u, 1u, (layers & 0xffffu) != 0u) << (2u * PAIRu);
     whole |= select(0u, 2u, (layers >> 16u) != 0u) << (2u * PAIRu);
     // end pair

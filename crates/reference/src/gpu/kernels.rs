@@ -154,7 +154,7 @@ fn look_source(look: &LookFor) -> String {
     .concat()
 }
 
-/// Repeats what is between `// each row` and `// end row` (or `word`), with its number for ROW: neither the
+/// Repeats what is between `// each row` and `// end row` (or `word`, or `pair`), with its number for ROW: neither the
 /// language nor wgpu, which bounds loops and indices, keeps rows of an array in registers.
 fn each(what: &str, count: u32, source: &str) -> String {
     let [start, end] = [format!("// each {what}\n"), format!("// end {what}\n")];

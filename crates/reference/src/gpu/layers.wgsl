@@ -12,7 +12,9 @@ var<workgroup> throughout: atomic<i32>;
 var<workgroup> deepest: atomic<i32>;
 // Samples whose layers share a word, and what each of them can hold.
 const FIELD = 32u / FIELDS;
-const MOST_LAYERS = i32((1u << FIELD) - 1u);
+// Less than none, which only rounding makes, takes nothing from the next sample: a quarter of the range is below 0.
+const BIAS = 1u << (FIELD - 2u);
+const MOST_LAYERS = i32(3u * BIAS - 1u);
 const EACH = select(0x00010001, 0x01010101, FIELDS == 4u);
 
 // The turn's inverse, whose determinant is 1.
@@ -23,9 +25,6 @@ fn turned(turn: vec4<f32>, p: vec2<f32>) -> vec2<f32> {
 // Layers before the light that do not depend on the sample are added up, other edges listed.
 fn meet(s: Sight, place: u32, stride: u32) {
     let seen = see(s, corner(place, stride), corner(place + 3u * stride, stride), pool[place + 6u * stride]);
-    if crosses(seen) {
-        atomicOr(&tally, CROSSING);
-    }
     let start = turned(s.turn, seen.start);
     let stop = turned(s.turn, seen.stop);
     let low = min(start.y, stop.y);
@@ -47,7 +46,7 @@ fn meet(s: Sight, place: u32, stride: u32) {
         atomicAdd(&deepest, adds);
     }
     let along = line_of(s.turn, seen.line);
-    let at = atomicAdd(&tally, 1u) & COUNT;
+    let at = atomicAdd(&tally, 1u);
     var run = select(vec2<f32>(along.slope, along.at), vec2<f32>(0.0, -BEYOND), before_all);
     if !CONE {
         // In samples of a row from its start.
@@ -91,8 +90,10 @@ fn added(weight: u32, first: u32, word: u32) -> u32 {
     return select(weight << ((FIELD * past) & 31u), 0u, past >= FIELDS);
 }
 
-// A bit for each sample's part of a word that is not 0.
-fn layered(word: u32) -> u32 {
+// A bit for each sample's part of a word that has layers.
+fn layered(sums: u32) -> u32 {
+    let none = BIAS * u32(EACH);
+    let word = (sums + none) ^ none;
     if FIELDS == 2u {
         return select(0u, 1u, (word & 0xffffu) != 0u) | select(0u, 2u, (word >> 16u) != 0u);
     }

@@ -14,5 +14,12 @@ const AGAIN = 0xfffffffcu;
 const TOO_DEEP = 0xfffffffbu;
 
 fn corner(place: u32, length: u32) -> vec3<f32> {
-    return bitcast<vec3<f32>>(vec3<u32>(pool[place], pool[place + length], pool[place + 2u * length]));
+    return bitcast<vec3<f32>>(bits(place, length));
 }
+
+fn bits(place: u32, length: u32) -> vec3<u32> {
+    return vec3<u32>(pool[place], pool[place + length], pool[place + 2u * length]);
+}
+
+// In the queue with the list of a receiver's group: an edge of it crosses the light.
+const COUNTS = 0x80000000u;

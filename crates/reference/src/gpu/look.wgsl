@@ -13,14 +13,12 @@ const KEPT = 64u;
 const UNSEEN = 0xffffffffu;
 
 var<workgroup> sights: array<Sight, RECEIVERS>;
-// Each receiver and the list of its group.
+// Each receiver and the list of its group, with COUNTS.
 var<workgroup> taken: array<vec2<u32>, RECEIVERS>;
 var<workgroup> kept: array<u32, KEPT>;
-// How many are listed; above, whether a sample is visible still, and whether an edge crosses the light.
+// How many are listed; above, whether a sample is visible still.
 var<workgroup> tally: atomic<u32>;
-const COUNT = 0xffffu;
 const VISIBLE = 0x20000u;
-const CROSSING = 0x40000u;
 var<workgroup> counts: array<u32, LANES>;
 
 // Some drivers end a loop that they think is endless: what was not looked at is told.
@@ -49,7 +47,8 @@ fn look(
             let index = taken[n].x;
             broken = false;
             deep = false;
-            hide(standing(sights[n]), heads[taken[n].y], lane);
+            let counts = (taken[n].y & COUNTS) != 0u;
+            hide(standing(sights[n]), heads[taken[n].y & ~COUNTS], counts, lane);
             if broken || deep {
                 if lane == 0u {
                     results[index] = vec4<u32>(select(TOO_DEEP, FOR_CPU, broken), 0u, 0u, 0u);
@@ -63,7 +62,7 @@ fn look(
 }
 
 // Hides the samples behind everything on a list.
-fn hide(s: Sight, list: List, lane: u32) {
+fn hide(s: Sight, list: List, counts: bool, lane: u32) {
     if lane == 0u {
         atomicStore(&tally, 0u);
         atomicStore(&throughout, 0);
@@ -71,7 +70,8 @@ fn hide(s: Sight, list: List, lane: u32) {
     }
     draw(s, lane);
     workgroupBarrier();
-    if list.edges > 0u && !count_layers(s, list, lane) {
+    // Where no edge crosses the light nothing is before it by edges: the glance would have told.
+    if counts && !count_layers(s, list, lane) {
         return;
     }
     // Triangles one by one.
@@ -154,7 +154,6 @@ fn count_layers(s: Sight, list: List, lane: u32) -> bool {
     var at = list.first;
     var i = 0u;
     var met = 0u;
-    var crossing = 0u;
     while at != NONE {
         var now = 0u;
         while at != NONE && now <= RUNS - LANES {
@@ -168,17 +167,12 @@ fn count_layers(s: Sight, list: List, lane: u32) -> bool {
                 workgroupBarrier();
                 now = atomicLoad(&tally);
                 workgroupBarrier();
-                crossing |= now & CROSSING;
-                now &= COUNT;
             } else {
                 at = pool[at];
                 i = 0u;
             }
         }
-        // Without an edge that crosses the light nothing is before it: the glance would have told.
-        if at != NONE || crossing != 0u {
-            wind(s, now);
-        }
+        wind(s, now);
         workgroupBarrier();
         if lane == 0u {
             atomicStore(&tally, 0u);
@@ -186,9 +180,6 @@ fn count_layers(s: Sight, list: List, lane: u32) -> bool {
         workgroupBarrier();
     }
     broken = broken || met != list.edges;
-    if crossing == 0u {
-        return true;
-    }
     deep = deep || atomicLoad(&deepest) + max(atomicLoad(&throughout), 0) > MOST_LAYERS;
     hide_layered();
     return any_visible(lane);

@@ -67,7 +67,7 @@ pub struct GpuTracer<'a> {
 /// Who found the truth at how many points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Share {
-    /// Looked at on the GPU.
+    /// Found on the GPU, most of them at a glance.
     pub gpu: usize,
     /// Hidden without a look: the light is below the horizon.
     pub below: usize,

@@ -2,8 +2,7 @@
 
 // The number of samples before a place, as the lowest bits of a mask.
 fn before(place: f32) -> u32 {
-    let number = u32(ceil(clamp(place, 0.0, 32.0)));
-    return select((1u << (number & 31u)) - 1u, 0xffffffffu, number == 32u);
+    return low_bits(u32(ceil(clamp(place, 0.0, 32.0))));
 }
 
 // From the tangent plane to the sine along a row, in half widths.

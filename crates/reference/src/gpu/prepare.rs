@@ -200,19 +200,20 @@ fn elevations(surfaces: &Surfaces, planes: &Planes, light: &AreaLight) -> Vec<[E
 fn group(planes: &Planes, first: u32, receivers: &[[u32; 4]]) -> Group {
     let mut low = Vec3::INFINITY;
     let mut high = Vec3::NEG_INFINITY;
-    let plane = |word: u32| {
-        let normal = planes.normal((word & IN_AIR) as usize).unwrap_or_default();
-        if word & BACK == 0 { normal } else { -normal }
-    };
+    let plane = |word: u32| planes.get((word & IN_AIR) as usize).unwrap_or_default();
+    let facing = |word: u32| if word & BACK == 0 { plane(word).0 } else { -plane(word).0 };
     let mut last = receivers[0][3];
-    let mut normal = plane(last);
+    let mut normal = facing(last);
     for receiver in receivers {
         let [x, y, z, _] = receiver.map(f32::from_bits);
-        let place = Vec3::new(x, y, z);
+        let place = DVec3::new(x.into(), y.into(), z.into());
+        // A receiver stands in its triangle's plane, wherever its point is.
+        let (n, offset) = plane(receiver[3]);
+        let place = (place - (n.dot(place) - offset) * n).as_vec3();
         (low, high) = (low.min(place), high.max(place));
         if receiver[3] != last {
             last = receiver[3];
-            if plane(last) != normal {
+            if facing(last) != normal {
                 normal = DVec3::ZERO;
             }
         }
@@ -243,11 +244,15 @@ fn runs(points: &Points, words: &mut [AtomicU32], (start, extent): (usize, f32))
     let scale = ((1 << (KEY_BITS - 1)) - 1) as f32 / extent.max(f32::MIN_POSITIVE);
     let key = |place: Vec3| {
         // Casts cut what is outside of the scene.
-        let [x, y, z] = ((place + extent) * scale).to_array().map(|c| spread((c as u64).min(0x1f_ffff)));
+        let [x, y, z] =
+            ((place + extent) * scale).to_array().map(|c| spread((c as u64).min((1 << KEY_BITS) - 1)));
         x | y << 1 | z << 2
     };
-    // Receivers that face different ways see different things.
+    // Receivers that face different ways see different things; those in mid-air, others again.
     let kind = |i: usize| {
+        if points.normal[i] == Vec3::ZERO {
+            return 6;
+        }
         let normal = points.normal[i].abs();
         let axis = normal.max_position();
         2 * axis as u64 + u64::from(points.normal[i][axis] < 0.0)

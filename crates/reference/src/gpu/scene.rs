@@ -34,9 +34,14 @@ impl Planes {
         Self((0..surfaces.corners.len()).into_par_iter().map(of).collect())
     }
 
-    /// A unit normal; `None` for a triangle without an area, and beyond the last.
+    /// A unit normal and the height of its plane; `None` for a triangle without an area, and beyond the last.
+    pub(super) fn get(&self, slot: usize) -> Option<(DVec3, f64)> {
+        self.0.get(slot).copied().flatten()
+    }
+
+    /// The normal alone.
     pub(super) fn normal(&self, slot: usize) -> Option<DVec3> {
-        self.0.get(slot).copied().flatten().map(|p| p.0)
+        self.get(slot).map(|p| p.0)
     }
 }
 

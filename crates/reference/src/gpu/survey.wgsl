@@ -29,7 +29,7 @@ fn reach(e: vec3<f32>) -> f32 {
 }
 
 fn corners_of(slot: u32) -> mat3x3<f32> {
-    return mat3x3<f32>(corners[3u * slot].xyz, corners[3u * slot + 1u].xyz, corners[3u * slot + 2u].xyz);
+    return mat3x3<f32>(vertex(3u * slot), vertex(3u * slot + 1u), vertex(3u * slot + 2u));
 }
 
 fn survey(s: Sight, word: u32, triangle: mat3x3<f32>) -> Seen {

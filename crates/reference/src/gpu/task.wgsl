@@ -56,9 +56,9 @@ const BACK = 0x10000000u;
 const ACROSS = 0x20000000u;
 
 @group(0) @binding(0) var<uniform> task: Task;
-// Three corners a slot. With each, 16 times the slot that lies on the side from there to the next (IN_AIR if none
+// Three corners a slot, bits of floats. With each, 16 times the slot that lies on the side from there to the next (IN_AIR if none
 // does), twice two bits of the piece that the triangle is of, and whether the other side goes the other way.
-@group(0) @binding(1) var<storage, read> corners: array<vec4<f32>>;
+@group(0) @binding(1) var<storage, read> corners: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read> receivers: array<vec4<u32>>;
 
 struct Group {
@@ -81,4 +81,14 @@ fn orthonormal_pair(n: vec3<f32>) -> mat2x3<f32> {
         vec3<f32>(1.0 + s * n.x * n.x * a, s * b, -s * n.x),
         vec3<f32>(b, s + n.y * n.y * a, -n.y),
     );
+}
+
+// A corner of a triangle, by three times its slot.
+fn vertex(at: u32) -> vec3<f32> {
+    return bitcast<vec3<f32>>(corners[at].xyz);
+}
+
+// As many of the lowest bits, 32 too.
+fn low_bits(number: u32) -> u32 {
+    return select((1u << (number & 31u)) - 1u, 0xffffffffu, number >= 32u);
 }

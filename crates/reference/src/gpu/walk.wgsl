@@ -90,8 +90,8 @@ fn stand(group: Group, lane: u32) -> bool {
     centre = 0.5 * (group.low + group.high);
     wide = (0.5 + DOUBT) * (group.high - group.low) + 1e-30;
     let word = receivers[group.first + min(lane, group.count - 1u)];
-    let at = bitcast<vec3<f32>>(word.xyz);
-    // Normals.
+    var at = bitcast<vec3<f32>>(word.xyz);
+    // Normals. A receiver stands in its triangle's plane, wherever its point is.
     let in_air = (word.w & IN_AIR) == IN_AIR;
     var own = vec3<f32>(0.0);
     var plane = 3e38;
@@ -99,6 +99,7 @@ fn stand(group: Group, lane: u32) -> bool {
         let under = 2u * (word.w & IN_AIR);
         let facing = select(1.0, -1.0, (word.w & BACK) != 0u);
         own = planes[under].xyz * facing;
+        at -= (dot(planes[under].xyz, at) - planes[under].w) * planes[under].xyz;
         plane = (planes[under].w + planes[under + 1u].w) * facing;
     }
     let lower = least_of(vec4<f32>(own, plane), lane);
@@ -255,7 +256,7 @@ fn sort(slot: u32, by_edges: bool) {
     for (var k = 0u; k < 4u; k++) {
         var mate = slot << 4u;
         if k > 0u {
-            mate = bitcast<u32>(corners[3u * slot + k - 1u].w);
+            mate = corners[3u * slot + k - 1u].w;
         }
         var side = OUT;
         if (mate >> 4u) != IN_AIR {
@@ -296,7 +297,7 @@ fn lies(slot: u32) -> bool {
     let under = ground & IN_AIR;
     let n = abs(planes[2u * under].xyz);
     for (var k = 0u; k < 3u; k++) {
-        let corner = corners[3u * slot + k].xyz;
+        let corner = vertex(3u * slot + k);
         let over = height(under, corner);
         if select(over, -over, (ground & BACK) != 0u) > 0.5 * COPLANAR * dot(n, abs(corner)) {
             return false;
@@ -371,13 +372,12 @@ fn list(group: u32, lane: u32) {
 fn piece_of(first: u32) -> u32 {
     var piece = 0u;
     for (var k = 0u; k < 3u; k++) {
-        piece |= ((bitcast<u32>(corners[first + k].w) >> 1u) & 3u) << (2u * k);
+        piece |= ((corners[first + k].w >> 1u) & 3u) << (2u * k);
     }
     return piece;
 }
 
-fn put(at: u32, stride: u32, place: vec3<f32>) {
-    let bits = bitcast<vec3<u32>>(place);
+fn put(at: u32, stride: u32, bits: vec3<u32>) {
     pool[at] = bits.x;
     pool[at + stride] = bits.y;
     pool[at + 2u * stride] = bits.z;
