@@ -12,9 +12,9 @@ var<workgroup> throughout: atomic<i32>;
 var<workgroup> deepest: atomic<i32>;
 // Samples whose layers share a word, and what each of them can hold.
 const FIELD = 32u / FIELDS;
-// Less than none, which only rounding makes, takes nothing from the next sample: a quarter of the range is below 0.
-const BIAS = 1u << (FIELD - 2u);
-const MOST_LAYERS = i32(3u * BIAS - 1u);
+// Less than none, which only rounding makes, takes nothing from the next sample: a sixteenth of the range is below 0.
+const BIAS = 1u << (FIELD - 4u);
+const MOST_LAYERS = i32(15u * BIAS - 1u);
 const EACH = select(0x00010001, 0x01010101, FIELDS == 4u);
 
 // The turn's inverse, whose determinant is 1.
