@@ -212,7 +212,7 @@ Written by `tests/peers/bounces.py`; the README there says how to run it.
 
 | | |
 | --- | --- |
-| umbrage | {page.said(options.umbrage, "--version")}, checkout at {page.said("git", "-C", cases.REPOSITORY, "rev-parse", "--short", "HEAD")}, `reference --bounces N --beauty-samples {options.samples}` |
+| umbrage | {page.said(options.umbrage, "--version")}, checkout at {page.said("git", "-C", cases.REPOSITORY, "describe", "--always", "--dirty", "--exclude", "*")}, `reference --bounces N --beauty-samples {options.samples}` |
 | Mitsuba | {mi.__version__}, `{options.variant}`, integrator `path`, `max_depth` N + 2, no roulette, {options.spp} samples |
 | room | {2 * WIDTH:g} x {HEIGHT:g} x {2 * DEPTH:g} m, three blocks, {2 * len(room.quads)} triangles; a rectangle of 1.2 x 0.8 m in the ceiling |
 | albedos | {"; ".join(f"{name} {', '.join(map(str, albedo))}" for name, albedo in ALBEDOS.items())} |

@@ -170,7 +170,7 @@ expected one by at most {EXCESS:g} sigma; and neighbours and blocks of R within 
 
 | | |
 | --- | --- |
-| umbrage | {page.said(options.umbrage, "--version")}, checkout at {page.said("git", "-C", cases.REPOSITORY, "rev-parse", "--short", "HEAD")}, {options.samples} light samples in each of two halves, method {options.method} |
+| umbrage | {page.said(options.umbrage, "--version")}, checkout at {page.said("git", "-C", cases.REPOSITORY, "describe", "--always", "--dirty", "--exclude", "*")}, {options.samples} light samples in each of two halves, method {options.method} |
 | Cycles | of Blender {version}, on the CPU, a program of its own; {BATCHES} renderings of {SAMPLES} samples a pixel |
 | atrium | {page.fingerprint(options.atrium)} |
 | pictures | {options.size}, one point in the middle of each pixel |

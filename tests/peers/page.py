@@ -54,7 +54,7 @@ force, bold where it is not.
 
 | | |
 | --- | --- |
-| umbrage | {said(options.umbrage, "--version")}, checkout at {said("git", "-C", cases.REPOSITORY, "rev-parse", "--short", "HEAD")}, {options.samples} light samples in each of two halves, method {options.method} |
+| umbrage | {said(options.umbrage, "--version")}, checkout at {said("git", "-C", cases.REPOSITORY, "describe", "--always", "--dirty", "--exclude", "*")}, {options.samples} light samples in each of two halves, method {options.method} |
 | Mitsuba | {mi.__version__}, Dr.Jit {dr.__version__}, `{options.variant}`, {options.spp} independent samples a point |
 | Python | {platform.python_version()}, numpy {np.__version__} |
 | atrium | {fingerprint(options.atrium)} |

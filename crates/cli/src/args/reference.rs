@@ -22,7 +22,7 @@ pub(crate) struct ReferenceArgs {
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub(crate) samples: u32,
     /// Standard error of V that is wanted at each pixel, e.g. 0.002: pixels that need it get more
-    /// samples. What was reached is said, and written as layer `samples.V`.
+    /// samples; those of E, E0 and R stay. What was reached is said, and written as layer `samples.V`.
     #[arg(long, value_name = "ERROR", value_parser = parse_tolerance)]
     pub(crate) tolerance: Option<f32>,
     /// How the light is sampled, and how samples are looked at.

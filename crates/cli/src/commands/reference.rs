@@ -52,6 +52,8 @@ fn layers(args: &ReferenceArgs, finder: &mut Finder<'_>, frame: &PathFrame) -> R
             MethodArg::ScanlineRays => Method::ScanlineRays,
         },
         tolerance: args.tolerance,
+        // No layer of them is written.
+        basis_samples: 0,
         ..TruthSettings::default()
     };
     let points = hits.points();

@@ -31,10 +31,13 @@ fn same_bits_at_any_thread_count() {
             let tracer = Tracer::new(&blocks()).expect("a scene");
             let PrimaryHits { gbuffer, triangle, .. } = tracer.primary(&eye());
             let points = PrimaryHits { gbuffer, triangle: triangle.clone(), material: triangle }.points();
-            let truths =
-                [Method::Rays, Method::Shafts].map(|m| tracer.truth(&points, &light(), &settings(32, m)));
-            let Irradiance { shadowed, ratio, .. } =
-                tracer.irradiance(&points, &light(), &settings(32, Method::Rays));
+            let truths = [Method::Rays, Method::Shafts, Method::Scanlines]
+                .map(|m| tracer.truth(&points, &light(), &settings(32, m)));
+            let [shadowed, ratio] = [Method::Rays, Method::Scanlines].map(|m| {
+                let Irradiance { shadowed, ratio, .. } =
+                    tracer.irradiance(&points, &light(), &settings(32, m));
+                (shadowed, ratio)
+            });
             let picture =
                 tracer.radiance(&eye(), &light(), &RadianceSettings { samples: 4, bounces: 2, seed: 3 });
             (points, truths, shadowed, ratio, picture)

@@ -77,19 +77,21 @@ fn two_seeds_agree_within_their_variance() {
 fn halves_and_basis_are_independent() {
     let (tracer, points, light) = edge_scene(1000);
     let exact = exact(&points);
-    let truth = tracer.truth(&points, &light, &settings(128, Method::Shafts));
-    let errors =
-        |list: &[f32]| -> Vec<f64> { list.iter().zip(&exact).map(|(&v, g)| f64::from(v) - g).collect() };
-    let lists = [errors(&truth.halves[0]), errors(&truth.halves[1]), errors(&truth.basis)];
-    for [i, j] in [[0, 1], [0, 2], [1, 2]] {
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let correlation =
-            dot(&lists[i], &lists[j]) / (dot(&lists[i], &lists[i]) * dot(&lists[j], &lists[j])).sqrt();
-        assert!(correlation.abs() < 4.0 / 1000f64.sqrt(), "{i} and {j}: {correlation:.3}");
+    for method in [Method::Shafts, Method::Scanlines] {
+        let truth = tracer.truth(&points, &light, &settings(128, method));
+        let errors =
+            |list: &[f32]| -> Vec<f64> { list.iter().zip(&exact).map(|(&v, g)| f64::from(v) - g).collect() };
+        let lists = [errors(&truth.halves[0]), errors(&truth.halves[1]), errors(&truth.basis)];
+        for [i, j] in [[0, 1], [0, 2], [1, 2]] {
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let correlation =
+                dot(&lists[i], &lists[j]) / (dot(&lists[i], &lists[i]) * dot(&lists[j], &lists[j])).sqrt();
+            assert!(correlation.abs() < 4.0 / 1000f64.sqrt(), "{method:?}, {i} and {j}: {correlation:.3}");
+        }
+        let means = truth.halves[0].iter().zip(&truth.halves[1]).map(|(a, b)| 0.5 * (a + b));
+        // One rounding of f32 for each of three numbers below 1.
+        assert!(means.zip(&truth.mean).all(|(a, b)| (a - b).abs() <= 2e-7), "{method:?}: mean of the halves");
     }
-    let means = truth.halves[0].iter().zip(&truth.halves[1]).map(|(a, b)| 0.5 * (a + b));
-    // One rounding of f32 for each of three numbers below 1.
-    assert!(means.zip(&truth.mean).all(|(a, b)| (a - b).abs() <= 2e-7), "mean of the halves");
 }
 
 #[test]
