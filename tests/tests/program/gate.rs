@@ -27,7 +27,13 @@ fn baseline(folder: &Path) -> std::path::PathBuf {
 #[test]
 fn a_regression_is_caught_shown_and_accepted() {
     let home = folder_with_scene();
-    let folder = home.path();
+    // A scene is named after its folder, and seeds after the scene: under a random name the gate would now and then
+    // raise a false alarm at other patterns (2 of 30 on two frames of so small a picture).
+    let folder = &home.path().join("boxes");
+    std::fs::create_dir(folder).expect("a folder");
+    for file in ["model.obj", "scene.toml"] {
+        std::fs::rename(home.path().join(file), folder.join(file)).expect("moved");
+    }
     let none = evaluate(folder, "--out none --baseline main").ended_with(5);
     assert!(none.stderr.contains("no baseline \"main\"") && none.stderr.contains("--save-baseline main"));
     assert!(!folder.join("reports/baselines").exists() && !folder.join("none").exists(), "nothing is made");
