@@ -114,15 +114,12 @@ impl GpuTracer<'_> {
     }
 
     fn batches(&mut self, call: &mut Call, groups: &[Group], size: usize) -> Result<(), ReferenceError> {
-        // What the GPU is at is left in peace; its patience is for a batch, not for a whole picture on a slow driver.
         let device = &self.gpu.device;
-        device.wait()?;
         self.buffers.fit_groups(device, size_of_val(groups))?;
         device.queue.write_buffer(&self.buffers.groups, 0, bytemuck::cast_slice(groups));
         for first in (0..groups.len()).step_by(size) {
-            if first > 0 {
-                device.wait()?;
-            }
+            // The device's patience is for a batch, not for a whole picture on a slow driver.
+            device.wait()?;
             call.task.first_group = first as u32;
             let count = size.min(groups.len() - first) as u32;
             let Call { compiled, task, times, passes } = call;

@@ -67,12 +67,7 @@ fn sight_of(index: u32) -> Sight {
     var u = task.u;
     var v = task.v;
     if KIND == SUN {
-        s.x = task.rows[0].xyz;
-        s.y = task.rows[1].xyz;
-        s.z = task.rows[2].xyz;
-        s.near = 3e38;
-        s.far = 3e38;
-        s.cone = task.cone;
+        s = standing(s);
     } else if FLAT {
         let across_v = cross(v, axis);
         let across_u = cross(axis, u);

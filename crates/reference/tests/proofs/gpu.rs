@@ -139,6 +139,7 @@ fn a_thicket() {
             let differing = found.iter().filter(|&&d| d > 0).count();
             let expected = 3 * leaves * points.len() / 8000;
             assert!(differing <= 2 * expected, "{leaves} leaves, {light:?}: {differing} differ");
+            // Three samples at a tie, as anywhere, and two ties at one point among thousands of edges.
             assert!(found.iter().all(|&d| d <= 6), "{leaves} leaves, {light:?}: {found:?}");
             let partial = pair[0].mean.iter().filter(|&&m| m > 0.0 && m < 1.0).count();
             assert!(partial > 140, "{leaves} leaves, {light:?}: {partial} in a penumbra");
